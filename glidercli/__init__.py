@@ -1,0 +1,23 @@
+"""Mission analysis and log replay for underwater gliders.
+
+Every command of ``glider`` is a function here: trim, simulate, replay, compare.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+_FUNCTIONS = {"simulate": "glidercli.simulation", "replay": "glidercli.logio"}
+_ROOMS = ("trim", "compare")  # rooms of the same name as their function; calling the room calls the function
+
+__all__ = ["compare", "replay", "simulate", "trim"]  # noqa: F822
+
+
+def __getattr__(name: str) -> Any:
+    """Import a room only when it is asked for: ``import glidercli`` costs nothing."""
+    if name in _ROOMS:
+        return importlib.import_module(f"glidercli.{name}")
+    if name in _FUNCTIONS:
+        return getattr(importlib.import_module(_FUNCTIONS[name]), name)
+    raise AttributeError(f"module 'glidercli' has no attribute {name!r}")

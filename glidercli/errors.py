@@ -1,0 +1,48 @@
+"""What can go wrong, as one tree; a command turns each into one line and an exit code.
+
+    GliderError                 exit 1
+    ├── InputError              a file or a value that cannot be used: file, what, where, what is allowed
+    ├── OutputError             an output that cannot be written
+    ├── NoSolutionError         a question that has no answer: the nearest point and what fails there
+    └── PinsError               exit 2: pins of a trim that are too few, dependent or contradictory
+
+Solvers report their outcome as data; exceptions are for input that cannot be used and questions without an answer.
+"""
+
+from __future__ import annotations
+
+__all__ = ["GliderError", "InputError", "NoSolutionError", "OutputError", "PinsError"]
+
+
+class GliderError(Exception):
+    """Any expected failure of the program; its text is one line fit for a user."""
+
+    exit_code = 1
+
+
+class InputError(GliderError):
+    """Input that cannot be used.
+
+    where : the file, option or quantity at fault, named first in the message.
+    what : what is wrong, where in it, and what is allowed.
+    """
+
+    def __init__(self, where: object, what: str) -> None:
+        super().__init__(f"{where}: {what}")
+
+
+class OutputError(GliderError):
+    """An output that cannot be written: it exists, its folder is missing or closed, or its kind is unknown."""
+
+    def __init__(self, path: object, what: str) -> None:
+        super().__init__(f"{path}: {what}")
+
+
+class NoSolutionError(GliderError):
+    """A well-posed question that the model answers with "there is none"."""
+
+
+class PinsError(GliderError):
+    """Trim pins that do not determine a trim."""
+
+    exit_code = 2

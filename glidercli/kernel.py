@@ -1,0 +1,79 @@
+"""One source for the physics: functions marked here run as plain Python or, for long runs, compiled by numba.
+
+A function marked ``@kernel`` stays a plain Python function and works on floats, tuples and named tuples. ``compiled``
+hands an entry point to numba, which sees every marked function that it calls. Nothing imports numba before that, so
+that a single trim starts at once.
+
+Compiled code is kept under the user's cache folder, in a directory named by a hash of every source file of the
+package: an edit anywhere gives a new directory, so that no stale answer can come back (numba's own check looks at the
+entry point's file alone). Where that folder cannot be written the cache is off and each process compiles anew.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+_marked: list[Callable[..., Any]] = []
+
+
+def kernel(function: Function) -> Function:
+    """Mark a function as part of the compilable physics; it is returned unchanged."""
+    _marked.append(function)
+    return function
+
+
+def sources_hash(package: Path | None = None) -> str:
+    """Hash of all Python sources below a folder (default: this package), as 16 hexadecimal digits."""
+    package = package or Path(__file__).parent
+    digest = hashlib.sha256()
+    for path in sorted(package.rglob("*.py")):
+        digest.update(str(path.relative_to(package)).encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _cache_folder() -> Path | None:
+    """Where compiled code is kept, or None where it cannot be."""
+    base = os.environ.get("GLIDER_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    folder = Path(base) / "glidercli" / f"numba-{sources_hash()}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        probe = folder / f".probe-{os.getpid()}"
+        probe.touch()
+        probe.unlink()
+    except OSError:
+        return None
+    return folder
+
+
+@functools.cache
+def _numba() -> tuple[Any, bool]:
+    """numba, with every marked function made known to it, and whether its cache may be used."""
+    folder = _cache_folder()
+    if folder is not None:
+        os.environ["NUMBA_CACHE_DIR"] = str(folder)
+    import numba
+    from numba.extending import register_jitable
+
+    if folder is not None:
+        numba.config.CACHE_DIR = str(folder)
+    for function in _marked:
+        register_jitable(function)
+    return numba, folder is not None
+
+
+@functools.cache
+def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The entry point compiled by numba; every ``@kernel`` function that it calls is compiled with it.
+
+    All modules with kernels that the entry point reaches must have been imported, which its own imports see to.
+    """
+    numba, cached = _numba()
+    return numba.njit(cache=cached)(function)  # type: ignore[no-any-return]

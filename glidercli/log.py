@@ -1,0 +1,170 @@
+"""What is a flight, simulated or real? A Log: named channels, each with its own sample times, events and metadata.
+
+A channel holds finite values only, at strictly increasing times: what is missing is absent, never NaN. A table
+(pandas) is one view of a Log: its rows are the union of the sample times and a channel is empty where it has none;
+nothing is interpolated.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glidercli.channels import CHANNELS, PHASES, by_column
+from glidercli.errors import InputError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+__all__ = ["Channel", "Event", "Log", "Origin"]
+
+Origin = Literal["measured", "derived", "simulated", "reconstruction"]
+"""Where values come from. derived: computed from measured ones, such as a dead-reckoned track."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Channel:
+    """Samples of one quantity.
+
+    time_ns : (n,) int64, UTC nanoseconds since 1970, strictly increasing.
+    values : (n,) float64, finite, in the SI unit of CHANNELS[name].
+    origin : where the values come from.
+    """
+
+    name: str
+    time_ns: NDArray[np.int64]
+    values: NDArray[np.float64]
+    origin: Origin = "measured"
+
+    def __post_init__(self) -> None:
+        time_ns = np.ascontiguousarray(self.time_ns, dtype=np.int64)
+        values = np.ascontiguousarray(self.values, dtype=np.float64)
+        if self.name not in CHANNELS:
+            raise InputError(self.name, f"is no channel; channels are {', '.join(CHANNELS)}")
+        if time_ns.ndim != 1 or time_ns.shape != values.shape:
+            raise InputError(self.name, f"has {time_ns.shape} times for {values.shape} values; one each is needed")
+        if not np.isfinite(values).all():
+            raise InputError(self.name, "holds a value that is not finite; missing samples must be left out")
+        if (np.diff(time_ns) <= 0).any():
+            raise InputError(self.name, "has times that do not increase")
+        object.__setattr__(self, "time_ns", time_ns)
+        object.__setattr__(self, "values", values)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def sliced(self, start_ns: int | None, end_ns: int | None) -> Channel:
+        """The samples with start_ns <= time < end_ns."""
+        first = 0 if start_ns is None else int(np.searchsorted(self.time_ns, start_ns))
+        last = len(self) if end_ns is None else int(np.searchsorted(self.time_ns, end_ns))
+        return dataclasses.replace(self, time_ns=self.time_ns[first:last], values=self.values[first:last])
+
+
+@dataclasses.dataclass(frozen=True)
+class Event:
+    """Something that happened at one time: apogee, surfacing, a GPS fix; depth in m, or None where unknown."""
+
+    name: str
+    time_ns: int
+    depth: float | None = None
+
+
+@dataclasses.dataclass(frozen=True)
+class Log:
+    """A flight.
+
+    channels : by name, each with its own times.
+    origin : "measured", "simulated" or "reconstruction": of the log as a whole.
+    metadata : short texts by key; "provenance" is JSON (see provenance.py), others are for people.
+    events : in time order.
+    """
+
+    channels: Mapping[str, Channel]
+    origin: Origin
+    metadata: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    events: tuple[Event, ...] = ()
+
+    def __getitem__(self, name: str) -> Channel:
+        return self.channels[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.channels
+
+    @property
+    def start_ns(self) -> int:
+        """Time of the first sample of any channel."""
+        return min(int(channel.time_ns[0]) for channel in self.channels.values() if len(channel))
+
+    @property
+    def end_ns(self) -> int:
+        """Time of the last sample of any channel."""
+        return max(int(channel.time_ns[-1]) for channel in self.channels.values() if len(channel))
+
+    def with_channels(self, *channels: Channel) -> Log:
+        """This log with these channels added or replaced."""
+        return dataclasses.replace(self, channels={**self.channels, **{c.name: c for c in channels}})
+
+    def with_metadata(self, **entries: str) -> Log:
+        """This log with these metadata added or replaced."""
+        return dataclasses.replace(self, metadata={**self.metadata, **entries})
+
+    def sliced(self, start_ns: int | None, end_ns: int | None) -> Log:
+        """The part with start_ns <= time < end_ns; channels without a sample there are left out."""
+        parts = {name: channel.sliced(start_ns, end_ns) for name, channel in self.channels.items()}
+        events = tuple(
+            e for e in self.events
+            if (start_ns is None or e.time_ns >= start_ns) and (end_ns is None or e.time_ns < end_ns)
+        )  # fmt: skip
+        return dataclasses.replace(self, channels={n: c for n, c in parts.items() if len(c)}, events=events)
+
+    def table(self) -> pd.DataFrame:
+        """All channels as a table in the contract's names and units.
+
+        First column time_utc (datetime64[ns], UTC without zone), second elapsed_s; rows at the union of all sample
+        times, NaN (empty in CSV) where a channel has no sample.
+        """
+        import pandas as pd
+
+        kept = [channel for channel in self.channels.values() if len(channel)]
+        time_ns = np.unique(np.concatenate([channel.time_ns for channel in kept])) if kept else np.array([], np.int64)
+        columns: dict[str, object] = {
+            "time_utc": time_ns.astype("datetime64[ns]"),
+            "elapsed_s": (time_ns - time_ns[0]) * 1e-9 if len(time_ns) else np.array([], float),
+        }
+        for channel in kept:
+            spec = CHANNELS[channel.name]
+            column = np.full(len(time_ns), np.nan)
+            rows = np.searchsorted(time_ns, channel.time_ns)
+            column[rows] = channel.values * spec.factor
+            if channel.name == "phase":
+                words = np.full(len(time_ns), None, dtype=object)
+                words[rows] = np.array(PHASES, dtype=object)[channel.values.astype(int)]
+                columns[spec.column] = words
+            else:
+                columns[spec.column] = column
+        return pd.DataFrame(columns)
+
+    @classmethod
+    def from_table(cls, table: pd.DataFrame, origin: Origin, metadata: Mapping[str, str] | None = None) -> Log:
+        """The Log of a table with time_utc and columns in the contract's names; unknown columns are ignored.
+
+        Rows must be in time order; a missing value is a missing sample.
+        """
+        time_ns = table["time_utc"].to_numpy().astype("datetime64[ns]").astype(np.int64)
+        channels = {}
+        for name in table.columns:
+            spec = by_column(str(name))
+            if spec is None:
+                continue
+            if spec.name == "phase":
+                index = {word: float(i) for i, word in enumerate(PHASES)}
+                values = np.array([index.get(word, np.nan) for word in table[name]])
+            else:
+                values = table[name].to_numpy(dtype=float) / spec.factor
+            valid = np.isfinite(values)
+            channels[spec.name] = Channel(spec.name, time_ns[valid], values[valid], origin)
+        return cls(channels, origin, dict(metadata or {}))
