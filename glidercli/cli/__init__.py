@@ -1,0 +1,32 @@
+"""The command line: one thin file per command; options in, one library call, result out."""
+
+from __future__ import annotations
+
+import sys
+
+__all__ = ["main"]
+
+
+def main() -> None:
+    """Run ``glider`` and exit: 0 success, 1 a failure named in one line, 2 wrong usage."""
+    from glidercli.cli.app import app
+    from glidercli.errors import GliderError
+
+    try:
+        app(prog_name="glider")
+    except GliderError as error:
+        if "--debug" in sys.argv:
+            raise
+        _fail(str(error), error.exit_code)
+    except BrokenPipeError:
+        sys.stderr.close()
+        sys.exit(1)
+    except Exception as error:
+        if "--debug" in sys.argv:
+            raise
+        _fail(f"internal error, {type(error).__name__}: {error} (--debug shows where)", 1)
+
+
+def _fail(message: str, exit_code: int) -> None:
+    print("glider: error: " + " ".join(message.split()), file=sys.stderr)
+    sys.exit(exit_code)

@@ -1,0 +1,40 @@
+"""Where results and messages go: results on stdout, messages on stderr; JSON in one form for every command."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+
+def finite(value: Any) -> Any:
+    """The value with every non-finite number replaced by None, at any depth, and numpy scalars made plain."""
+    if isinstance(value, Mapping):
+        return {key: finite(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [finite(item) for item in value]
+    if hasattr(value, "item"):
+        value = value.item()
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
+
+def json_text(document: Any) -> str:
+    """The document as JSON; non-finite numbers are null."""
+    return json.dumps(finite(document), indent=2, allow_nan=False, ensure_ascii=False)
+
+
+def warn(messages: Iterable[str], quiet: bool) -> None:
+    """Each message as one line on stderr, unless quiet."""
+    if not quiet:
+        for message in messages:
+            print(f"glider: warning: {message}", file=sys.stderr)
+
+
+def say(message: str, quiet: bool) -> None:
+    """A progress message on stderr, unless quiet."""
+    if not quiet:
+        print(message, file=sys.stderr)

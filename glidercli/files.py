@@ -1,0 +1,64 @@
+"""Outputs appear whole or not at all: written beside their place under another name, then renamed."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Collection, Iterator
+from pathlib import Path
+
+from glidercli.errors import InputError, OutputError
+
+__all__ = ["atomic", "check_outputs", "readable_file"]
+
+
+def readable_file(path: Path) -> Path:
+    """The path, after checking that it is a file that can be read and is not empty; else InputError."""
+    if not path.exists():
+        raise InputError(path, "no such file")
+    if path.is_dir():
+        raise InputError(path, "is a folder; a file is needed")
+    if not os.access(path, os.R_OK):
+        raise InputError(path, "cannot be read: permission denied")
+    if path.stat().st_size == 0:
+        raise InputError(path, "is empty")
+    return path
+
+
+def check_outputs(paths: Collection[Path], suffixes: Collection[str], force: bool) -> None:
+    """Refuse outputs that could not be written in the end, before any work is done.
+
+    suffixes : allowed endings, lower case with the dot. The path "-" (standard output) always passes.
+    """
+    seen = set()
+    for path in paths:
+        if str(path) == "-":
+            continue
+        if path.suffix.lower() not in suffixes:
+            raise OutputError(path, f"unknown output {path.suffix or 'without ending'}; allowed: {' '.join(suffixes)}")
+        if path.resolve() in seen:
+            raise OutputError(path, "is named twice as output")
+        seen.add(path.resolve())
+        if path.is_dir():
+            raise OutputError(path, "is a folder; a file name is needed")
+        if not path.parent.is_dir():
+            raise OutputError(path, f"folder {path.parent} does not exist")
+        if not os.access(path.parent, os.W_OK):
+            raise OutputError(path, f"folder {path.parent} cannot be written: permission denied")
+        if path.exists() and not force:
+            raise OutputError(path, "exists; --force replaces it")
+
+
+@contextlib.contextmanager
+def atomic(path: Path, force: bool) -> Iterator[Path]:
+    """A name beside ``path`` to write to; on success it becomes ``path``, on any failure it is removed."""
+    if path.exists() and not force:
+        raise OutputError(path, "exists; --force replaces it")
+    beside = path.with_name(f".{path.stem}.part-{os.getpid()}{path.suffix}")
+    try:
+        yield beside
+        os.replace(beside, path)
+    except OSError as error:
+        raise OutputError(path, f"cannot be written: {error.strerror or error}") from error
+    finally:
+        beside.unlink(missing_ok=True)
