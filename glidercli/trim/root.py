@@ -1,0 +1,147 @@
+"""Which steady flight do these controls give? Newton's method on the six equations (28), (29), led by continuation.
+
+The unknowns are V, alpha, beta, omega_3, phi, theta. A straight glide is found first; the rotation of the movable mass
+is then turned up to its value in steps that halve where Newton fails.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glidercli.errors import NoSolutionError
+from glidercli.frames import down_in_body
+from glidercli.model.equations import Water, equilibrium
+from glidercli.model.hydrodynamics import velocity_from_flow
+from glidercli.model.parameters import Controls, Parameters
+from glidercli.trim.straight import first_guess
+
+__all__ = ["Solution", "residuals", "solve_forward"]
+
+Array = NDArray[np.float64]
+
+TOLERANCE = 1e-10
+"""Largest residual of a solution, N or N m: a hundred-billionth of the forces of a glide (some newtons)."""
+
+EQUATIONS = (
+    "force along x (28)", "force along y (28)", "force along z (28)",
+    "roll moment (29)", "pitch moment (29)", "yaw moment (29)",
+)  # fmt: skip
+
+_STEP = 1e-6  # central differences: truncation 1e-12 and rounding 1e-10, both far below what Newton needs
+
+
+class Solution(NamedTuple):
+    """Outcome of a solve.
+
+    unknowns : V, alpha, beta, omega_3, phi, theta in SI, rad. residual : largest of the six equations.
+    """
+
+    unknowns: Array
+    residual: float
+    iterations: int
+    converged: bool
+
+
+def residuals(x: Array, c: Controls, water: Water, p: Parameters) -> Array:
+    """The six equations at x = (V, alpha, beta, omega_3, phi, theta), N and N m."""
+    V, alpha, beta, omega3, phi, theta = (float(item) for item in x)
+    return np.array(equilibrium(velocity_from_flow(V, alpha, beta), down_in_body(phi, theta), omega3, c, water, p))
+
+
+def newton(start: Array, c: Controls, water: Water, p: Parameters, limit: int = 30) -> Solution:
+    """Damped Newton from a start: each step is halved until the residual shrinks."""
+    x = np.array(start, dtype=float)
+    r = residuals(x, c, water, p)
+    for iteration in range(1, limit + 1):
+        steps = np.eye(6) * _STEP
+        columns = [(residuals(x + h, c, water, p) - residuals(x - h, c, water, p)) / (2.0 * _STEP) for h in steps]
+        try:
+            full = np.linalg.solve(np.array(columns).T, -r)
+        except np.linalg.LinAlgError:
+            break
+        for shrink in range(12):
+            trial = x + full * 0.5**shrink
+            if trial[0] <= 0.0:
+                continue
+            new = residuals(trial, c, water, p)
+            if np.abs(new).max() < np.abs(r).max():
+                break
+        else:
+            break
+        x, r = trial, new
+        if np.abs(r).max() < TOLERANCE:
+            return Solution(x, float(np.abs(r).max()), iteration, True)
+    residual = float(np.abs(r).max())
+    return Solution(x, residual, limit, residual < TOLERANCE)
+
+
+def _glides(x: Array, c: Controls) -> bool:
+    """Whether a solution is an ordinary one: upright enough, flow from ahead, sinking when heavy."""
+    _, alpha, beta, _, phi, theta = x
+    return bool(abs(alpha) < 0.6 and abs(beta) < 0.6 and abs(phi) < math.pi / 2 * 1.2 and abs(theta) < math.pi / 2)
+
+
+def follow(x: Array, start: Controls, goal: Controls, water: Water, p: Parameters) -> Solution:
+    """Continue a solution at ``start`` to the controls ``goal`` in steps that halve where Newton fails."""
+    done, step, used = 0.0, 1.0, 0
+    solution = Solution(x, math.inf, 0, False)
+    while done < 1.0 and step > 1e-4:
+        share = min(1.0, done + step)
+        c = Controls(*(a + share * (b - a) for a, b in zip(start, goal, strict=True)))
+        attempt = newton(x, c, water, p)
+        used += attempt.iterations
+        if attempt.converged and _glides(attempt.unknowns, c):
+            x, done, solution = attempt.unknowns, share, attempt
+        else:
+            step /= 2.0
+            if not solution.converged or attempt.residual < solution.residual:
+                solution = attempt._replace(converged=False)
+    return solution._replace(iterations=used, converged=done >= 1.0)
+
+
+def solve_forward(goal: Controls, nominal_position: float, water: Water, p: Parameters) -> Solution:
+    """The steady flight of given controls: the six unknowns from net buoyancy, mass position and rotation.
+
+    nominal_position : position of the movable mass at which the vehicle is level, m; a second way starts 20 mm from it
+    where the straight glide of the goal's own position cannot be had.
+
+    Raises
+    ------
+    NoSolutionError
+        No way leads there; the message names the equation that stays furthest from zero, and where.
+    """
+    if goal.mb == 0.0:
+        raise NoSolutionError("net buoyancy 0 kg: a neutral glider has no steady flight; give a value other than 0")
+    detour = goal._replace(rrx=nominal_position + math.copysign(0.02, goal.mb))
+    best = None
+    used = 0
+    for via in (goal, detour):
+        straight = via._replace(gamma=0.0)
+        speed, alpha, theta = first_guess(straight, water.gravity, p)
+        first = newton(np.array([speed, alpha, 0.0, 0.0, 0.0, theta]), straight, water, p)
+        used += first.iterations
+        best = best or first
+        x, c, reached = first.unknowns, straight, first
+        for stop in (via, goal):
+            if reached.converged and stop != c:
+                reached = follow(x, c, stop, water, p)
+                used += reached.iterations
+                x, c = reached.unknowns, stop
+        if reached.converged:
+            return reached._replace(iterations=used)
+        best = reached
+    assert best is not None
+    r = residuals(best.unknowns, goal, water, p)
+    worst = int(np.abs(r).argmax())
+    V, alpha, beta, _, phi, theta = best.unknowns
+    degrees = [f"{name} {math.degrees(value):.1f} deg" for name, value in (
+        ("angle of attack", alpha), ("sideslip", beta), ("roll", phi), ("pitch", theta))]  # fmt: skip
+    raise NoSolutionError(
+        f"no steady flight found for net buoyancy {goal.mb:g} kg, mass position {goal.rrx:g} m, mass rotation "
+        f"{math.degrees(goal.gamma):g} deg: the {EQUATIONS[worst]} stays furthest from zero, {r[worst]:.3g}, at speed "
+        f"{V:.3f} m/s, {', '.join(degrees)}"
+    )
