@@ -1,0 +1,30 @@
+"""``glider vehicles`` and ``glider missions``: what is shipped, one plain line each."""
+
+from __future__ import annotations
+
+from glidercli.cli.options import Debug, Json, Quiet
+
+
+def vehicles(json: Json = False, quiet: Quiet = False, debug: Debug = False) -> None:
+    """List the shipped vehicles: name, two spaces, description."""
+    from glidercli.vehicle import load_vehicle, shipped_vehicles
+
+    _show({name: load_vehicle(name).description for name in shipped_vehicles()}, "vehicles", json)
+
+
+def missions(json: Json = False, quiet: Quiet = False, debug: Debug = False) -> None:
+    """List the shipped missions: name, two spaces, description."""
+    from glidercli import shipped
+    from glidercli.simulation.mission import load_mission
+
+    _show({name: load_mission(name)[0].description for name in shipped.folders()}, "missions", json)
+
+
+def _show(found: dict[str, str], what: str, json: bool) -> None:
+    from glidercli.cli.printing import json_text
+
+    if json:
+        print(json_text({what: [{"name": name, "description": text} for name, text in found.items()]}))
+    else:
+        for name, text in found.items():
+            print(f"{name}  {text}")

@@ -1,0 +1,39 @@
+"""The outputs of a command that makes a Log: checked before any work, written whole after it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import typer
+
+from glidercli.cli.printing import say
+from glidercli.log import Log
+
+__all__ = ["check_log_outputs", "write_log"]
+
+_STDOUT = Path("-")
+
+
+def check_log_outputs(paths: Sequence[Path], force: bool, json: bool) -> None:
+    """Refuse outputs that could not be written; standard output holds one document only."""
+    from glidercli.files import check_outputs
+    from glidercli.logio import SUFFIXES
+
+    if json and _STDOUT in paths:
+        raise typer.BadParameter("-o - and --json both want stdout; leave one out")
+    check_outputs(paths, SUFFIXES, force)
+
+
+def write_log(log: Log, paths: Sequence[Path], force: bool, quiet: bool) -> None:
+    """Write the log to every path, "-" being CSV on stdout."""
+    from glidercli.logio import write
+    from glidercli.logio.csv_log import write_csv_stream
+
+    for path in paths:
+        if path == _STDOUT:
+            write_csv_stream(log, sys.stdout)
+        else:
+            write(log, path, force=force)
+            say(f"wrote {path}", quiet)

@@ -1,0 +1,89 @@
+"""``glider simulate``: fly a mission or three held controls."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from glidercli.cli.options import Debug, Equations, EquationsOption, Force, Json, Quiet, output_option
+
+
+def simulate(
+    mission: Annotated[
+        str | None, typer.Argument(help="Mission: a TOML file or the name of a shipped one.", show_default=False)
+    ] = None,
+    ctd: Annotated[Path | None, typer.Option(metavar="FILE", help="Cast of the water: .cnv or CSV.")] = None,
+    adcp: Annotated[Path | None, typer.Option(metavar="FILE", help="Current by depth: CSV.")] = None,
+    net_buoyancy: Annotated[float | None, typer.Option(help="Held net buoyancy, kg, sinking positive.")] = None,
+    mass_position: Annotated[float | None, typer.Option(help="Held position of the movable mass, m.")] = None,
+    mass_rotation: Annotated[float | None, typer.Option(help="Held rotation of the movable mass, deg.")] = None,
+    duration: Annotated[float | None, typer.Option(help="Length of the flight, s [default: 3600].")] = None,
+    start_depth: Annotated[float | None, typer.Option(help="Depth of the start, m [default: 0].")] = None,
+    latitude: Annotated[float | None, typer.Option(help="Latitude, deg: gravity, and pressure of a cast.")] = None,
+    every: Annotated[float, typer.Option(help="Time between samples, s.")] = 1.0,
+    rtol: Annotated[float, typer.Option(help="Relative tolerance of the integrator.")] = 1e-8,
+    vehicle: Annotated[
+        str | None,
+        typer.Option(metavar="NAME|FILE.toml", help="Vehicle [default: the mission's, else seawing].", show_default=False),
+    ] = None,
+    equations: EquationsOption = Equations.FULL,
+    output: Annotated[list[Path] | None, output_option(".mcap .rrd .csv")] = None,
+    force: Force = False,
+    json: Json = False,
+    quiet: Quiet = False,
+    debug: Debug = False,
+) -> None:
+    """Full dynamics through measured water and current, from rest."""
+    from glidercli.cli.outputs import check_log_outputs, write_log
+    from glidercli.cli.printing import json_text, warn
+    from glidercli.provenance import provenance_json
+    from glidercli.simulation import simulate as fly
+
+    outputs = output or []
+    check_log_outputs(outputs, force, json)
+    flown = fly(
+        mission,
+        vehicle=vehicle,
+        net_buoyancy=net_buoyancy,
+        mass_position=mass_position,
+        mass_rotation=None if mass_rotation is None else math.radians(mass_rotation),
+        ctd=ctd,
+        adcp=adcp,
+        duration=duration,
+        start_depth=start_depth,
+        latitude=latitude,
+        every=every,
+        rtol=rtol,
+        equations=equations.value,
+    )
+    origin = "simulated, from a reconstruction" if "reconstruction" in flown.log.metadata else "simulated"
+    log = flown.log.with_metadata(provenance=provenance_json(inputs=flown.inputs, origin=origin))
+    warn(flown.warnings, quiet)
+    write_log(log, outputs, force, quiet)
+    if json:
+        print(json_text(flown.document()))
+    elif Path("-") not in outputs:
+        print(_summary(flown.document()))
+
+
+def _summary(d: dict[str, Any]) -> str:
+    """The flight for people, a line each."""
+    rate = d["simulated_seconds_per_second"]
+    lines = [f"SIMULATED FROM A RECONSTRUCTION: {d['reconstruction']}"] if d["reconstruction"] else ["SIMULATED"]
+    lines += [
+        f"{'duration':<17}{d['duration_s']:.1f} s",
+        f"{'maximum depth':<17}{d['max_depth_m']:.2f} m",
+        f"{'distance':<17}{d['distance_m']:.1f} m over ground",
+        f"{'energy':<17}{d['energy_j']:.1f} J lost to the water",
+    ]
+    lines += [f"{e['name']:<17}{e['time_s']:.1f} s, {e['depth_m']:.2f} m" for e in d["events"]]
+    final = d["final"]
+    lines += [
+        f"{'at the end':<17}pitch {final['pitch_deg']:.2f} deg, roll {final['roll_deg']:.2f} deg, heading "
+        f"{final['heading_deg']:.1f} deg, {final['speed_through_water_m_s']:.3f} m/s through water",
+        f"{'integrated in':<17}{d['wall_s']:.3f} s" + (f", {rate:,.0f} simulated s/s" if rate else ""),
+    ]
+    return "\n".join(lines)

@@ -1,0 +1,69 @@
+"""Which controls at which time? Held values, or a table of knots; linear between them."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glidercli.errors import InputError
+from glidercli.files import readable_file
+
+__all__ = ["Schedule", "held", "read_schedule"]
+
+_COLUMNS = ("elapsed_s", "mass_position_m", "mass_rotation_deg", "net_buoyancy_kg")
+
+
+@dataclasses.dataclass(frozen=True)
+class Schedule:
+    """Controls of a leg.
+
+    times : (n,) s from the start of the leg, increasing. values : (n, 3) mass position (m), mass rotation (rad), net
+    buoyancy (kg). until_depth : m, ends the leg; NaN where none does. Before the first and after the last knot the
+    controls are held.
+    """
+
+    name: str
+    times: NDArray[np.float64]
+    values: NDArray[np.float64]
+    until_depth: float = math.nan
+
+
+def held(mass_position: float, mass_rotation: float, net_buoyancy: float) -> Schedule:
+    """Three controls held for the whole flight (SI, rad); raises InputError where one is not finite."""
+    given = {"mass position": mass_position, "mass rotation": mass_rotation, "net buoyancy": net_buoyancy}
+    for name, value in given.items():
+        if not math.isfinite(value):
+            raise InputError(name, f"{value} is not allowed; a finite number is needed")
+    return Schedule("held", np.zeros(1), np.array([list(given.values())]))
+
+
+def read_schedule(path: Path, name: str, until_depth: float | None) -> Schedule:
+    """Controls from a CSV table with elapsed_s, mass_position_m, mass_rotation_deg and net_buoyancy_kg."""
+    import pandas as pd
+
+    try:
+        table = pd.read_csv(readable_file(path))
+    except (UnicodeDecodeError, pd.errors.ParserError) as error:
+        raise InputError(path, f"is not a CSV table: {error}") from None
+    missing = [column for column in _COLUMNS if column not in table]
+    if missing:
+        raise InputError(path, f"lacks {', '.join(missing)}; needed are {', '.join(_COLUMNS)}")
+    for column in _COLUMNS:
+        numbers = pd.to_numeric(table[column], errors="coerce").to_numpy(dtype=float)
+        bad = np.flatnonzero(~np.isfinite(numbers))
+        if len(bad):
+            row = int(bad[0])
+            raise InputError(path, f"line {row + 2}: {column} = {table[column].iloc[row]!r}; a finite number is needed")
+        table[column] = numbers
+    times = table["elapsed_s"].to_numpy(dtype=float)
+    back = np.flatnonzero(np.diff(times) <= 0.0)
+    if len(back):
+        raise InputError(path, f"line {int(back[0]) + 3}: elapsed_s does not increase; increasing times are needed")
+    values = np.column_stack(
+        [table["mass_position_m"], np.radians(table["mass_rotation_deg"]), table["net_buoyancy_kg"]]
+    ).astype(float)
+    return Schedule(name, times, values, math.nan if until_depth is None else until_depth)
