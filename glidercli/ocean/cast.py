@@ -1,0 +1,241 @@
+"""What water does a CTD file describe? One cast: density, and temperature and salinity if measured, by depth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glidercli.errors import InputError
+from glidercli.ocean import seawater
+from glidercli.ocean.cnv import is_cnv, parse_cnv
+from glidercli.ocean.downcast import DEEPEST_DBAR, SALINITY, TEMPERATURE, downcast
+from glidercli.ocean.seabird import samples
+from glidercli.ocean.source import listed, read_text
+from glidercli.ocean.table import Table, parse_table
+
+__all__ = ["Cast", "read_ctd"]
+
+Array = NDArray[np.float64]
+
+_CSV_COLUMNS = (
+    "depth_m or pressure_dbar; temperature_degC with salinity, absolute_salinity_g_kg or conductivity_S_m, or "
+    "density_kg_m3; and, if known, latitude_deg, longitude_deg, time_utc"
+)
+_EXPECTED = f"a CTD cast is a Sea-Bird .cnv file or a table with the columns {_CSV_COLUMNS}"
+_SALT = ("salinity", "absolute_salinity_g_kg", "conductivity_S_m")
+_USED = ("depth_m", "pressure_dbar", "temperature_degC", *_SALT, "density_kg_m3", "latitude_deg", "longitude_deg")
+_CONDUCTIVITY = (0.0, 10.0)  # S/m; the saltiest warm sea has 7
+_DENSITY = (990.0, 1100.0)  # kg/m3 in situ: fresh at 45 degC to brine in the deepest trench
+_DENSITY_MISMATCH = 0.1  # kg/m3; equations of state in use differ by less than 0.03
+
+
+@dataclass(frozen=True)
+class Cast:
+    """A vertical profile of the water.
+
+    depth : (n,), m, positive down, strictly increasing.
+    pressure_dbar : (n,), sea pressure.
+    temperature : (n,), degC, in situ, ITS-90; None if not measured.
+    salinity : (n,), practical; None if not measured. absolute_salinity : (n,), g/kg; None if unknown.
+    density : (n,), kg/m3, in situ.
+    latitude, longitude : degrees, north and east positive; None if unknown.
+    time_utc : start of the cast as the file has it, or None.
+    dropped : samples left out, as (reason, count).
+    warnings : one line each, without the file's name.
+    """
+
+    depth: Array
+    pressure_dbar: Array
+    temperature: Array | None
+    salinity: Array | None
+    absolute_salinity: Array | None
+    density: Array
+    latitude: float | None
+    longitude: float | None
+    time_utc: str | None
+    source: Path
+    dropped: tuple[tuple[str, int], ...]
+    warnings: tuple[str, ...]
+
+    @property
+    def records(self) -> int:
+        """Samples in the file: those kept and those dropped."""
+        return len(self.depth) + sum(count for _, count in self.dropped)
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Where a cast was taken; ``used`` is the latitude that formulas get when it is not known."""
+
+    latitude: float | None
+    longitude: float | None
+
+    @property
+    def used(self) -> float:
+        return 0.0 if self.latitude is None else self.latitude
+
+    def warnings(self, pressure_used: bool, salinity_used: bool) -> tuple[str, ...]:
+        """What is not known, and how much that matters."""
+        lines = []
+        if self.latitude is None and pressure_used:
+            lines.append(
+                "latitude unknown, 0 deg is used: depth for a pressure is too great by up to 0.53 % "
+                "(5.2 m at 1000 dbar, at the poles)"
+            )
+        if (self.longitude is None or self.latitude is None) and salinity_used:
+            lines.append(
+                "without latitude and longitude absolute salinity is the reference salinity: density is too small by "
+                "up to 0.02 kg/m3 in the open ocean"
+            )
+        return tuple(lines)
+
+
+def read_ctd(path: str | Path, latitude: float | None = None) -> Cast:
+    """The cast in a Sea-Bird .cnv file or a plain table, told apart by content; either may be gzipped.
+
+    latitude : degrees north; used only where the file has none.
+
+    A .cnv file is a record in time: its last descent is taken (see downcast.py). A table is a profile already: its
+    rows must grow deeper, and every fault in it is an error. Density comes from temperature and salinity by TEOS-10
+    where both are there, else from the file. Nothing is interpolated here; between samples profile.py holds.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, lacks a quantity (its columns and the allowed ones are named), has a cell that is no
+        number or impossible (line and column are named), is unsorted, or no good sample is left.
+    """
+    path = Path(path)
+    if latitude is not None:
+        seawater.checked_latitude(latitude)
+    text = read_text(path, _EXPECTED)
+    if is_cnv(text):
+        return _from_cnv(path, text, latitude)
+    return _from_table(parse_table(path, text, _EXPECTED), latitude)
+
+
+def _from_cnv(path: Path, text: str, latitude: float | None) -> Cast:
+    """The last descent of a .cnv file."""
+    file = parse_cnv(path, text)
+    place = _Place(latitude if file.latitude is None else file.latitude, file.longitude)
+    recorded = samples(file, place.used)
+    kept, dropped, warnings = downcast(recorded)
+    if file.unreadable:
+        dropped = (("unreadable row", file.unreadable), *dropped)
+    total = len(file.rows) + file.unreadable
+    if file.announced is not None and file.announced != total:
+        warnings = (f"the header announces {file.announced} rows, the file has {total}: it may be cut off", *warnings)
+    if len(kept) == 0:
+        reasons = ", ".join(f"{count} {reason}" for reason, count in dropped)
+        raise InputError(path, f"has no usable sample among {total}: {reasons}; at least one is needed")
+    pressure, temperature = recorded.pressure_dbar[kept], recorded.temperature[kept]
+    salinity = recorded.salinity[kept]
+    absolute = _absolute_salinity(salinity, pressure, place)
+    return Cast(
+        depth=seawater.depth_from_pressure(pressure, place.used),
+        pressure_dbar=pressure,
+        temperature=temperature,
+        salinity=salinity,
+        absolute_salinity=absolute,
+        density=seawater.density(absolute, temperature, pressure),
+        latitude=place.latitude,
+        longitude=place.longitude,
+        time_utc=file.time_utc,
+        source=path,
+        dropped=dropped,
+        warnings=(*warnings, *place.warnings(True, True)),
+    )
+
+
+def _from_table(table: Table, latitude: float | None) -> Cast:
+    """The profile of a plain table, every row of it."""
+    own_latitude = _constant(table, "latitude_deg", -90.0, 90.0)
+    place = _Place(latitude if own_latitude is None else own_latitude, _constant(table, "longitude_deg", -180.0, 360.0))
+    depth, pressure = _axes(table, place)
+    temperature = _column(table, "temperature_degC", TEMPERATURE)
+    salinity = _column(table, "salinity", SALINITY)
+    conductivity = _column(table, "conductivity_S_m", _CONDUCTIVITY)
+    if salinity is None and conductivity is not None and temperature is not None:
+        salinity = seawater.practical_salinity(conductivity, temperature, pressure)
+    absolute = _column(table, "absolute_salinity_g_kg", SALINITY)
+    by_place = absolute is None and salinity is not None
+    if absolute is None and salinity is not None:
+        absolute = _absolute_salinity(salinity, pressure, place)
+    density, warnings = _density(table, absolute, temperature, pressure)
+    if unknown := table.unknown(_USED):
+        warnings += (f"columns not known and not used: {listed(unknown)}",)
+    return Cast(
+        depth=depth,
+        pressure_dbar=pressure,
+        temperature=temperature,
+        salinity=salinity,
+        absolute_salinity=absolute,
+        density=density,
+        latitude=place.latitude,
+        longitude=place.longitude,
+        time_utc=(table.cells["time_utc"][0] or None) if "time_utc" in table else None,
+        source=table.path,
+        dropped=(),
+        warnings=(*place.warnings(not {"depth_m", "pressure_dbar"} <= set(table.columns), by_place), *warnings),
+    )
+
+
+def _axes(table: Table, place: _Place) -> tuple[Array, Array]:
+    """Depth, m, and pressure, dbar, of a table's rows; the one that it lacks comes from the other."""
+    if "pressure_dbar" not in table:
+        if "depth_m" not in table:
+            raise _missing(table, "depth_m or pressure_dbar")
+        depth = table.increasing("depth_m", 0.0, DEEPEST_DBAR)
+        return depth, seawater.pressure_from_depth(depth, place.used)
+    pressure = table.increasing("pressure_dbar", 0.0, DEEPEST_DBAR)
+    if "depth_m" not in table:
+        return seawater.depth_from_pressure(pressure, place.used), pressure
+    depth = table.increasing("depth_m", 0.0, DEEPEST_DBAR)
+    expected = seawater.pressure_from_depth(depth, place.used)
+    for i in np.flatnonzero(np.abs(pressure - expected) > 5.0 + 0.05 * expected):  # fresh water has 3 % less
+        what = f"pressure_dbar = {pressure[i]:g} at depth_m = {depth[i]:g}, where {expected[i]:.0f} dbar are expected"
+        raise InputError(table.path, f"line {table.lines[i]}: {what}")
+    return depth, pressure
+
+
+def _density(
+    table: Table, absolute: Array | None, temperature: Array | None, pressure: Array
+) -> tuple[Array, tuple[str, ...]]:
+    """In-situ density, kg/m3, by TEOS-10 where salinity and temperature are there, else the table's; and warnings."""
+    own = _column(table, "density_kg_m3", _DENSITY)
+    if absolute is not None and temperature is not None:
+        computed = seawater.density(absolute, temperature, pressure)
+        apart = 0.0 if own is None else float(np.abs(own - computed).max())
+        if apart > _DENSITY_MISMATCH:
+            return computed, (f"density_kg_m3 differs from TEOS-10 by up to {apart:.2f} kg/m3; TEOS-10 is used",)
+        return computed, ()
+    if own is None:
+        salty = temperature is None and any(name in table for name in _SALT)
+        raise _missing(table, "temperature_degC" if salty else f"{', '.join(_SALT)} or density_kg_m3")
+    return own, ()
+
+
+def _column(table: Table, name: str, allowed: tuple[float, float]) -> Array | None:
+    """Numbers of a column within a range, or None without it."""
+    return table.numbers(name, *allowed) if name in table else None
+
+
+def _absolute_salinity(salinity: Array, pressure: Array, place: _Place) -> Array:
+    """SA, g/kg, at the cast's place, or the reference salinity where the place is not known."""
+    longitude = None if place.latitude is None else place.longitude
+    return seawater.absolute_salinity(salinity, pressure, longitude, place.used)
+
+
+def _constant(table: Table, column: str, low: float, high: float) -> float | None:
+    """Median of a column of positions, or None without it."""
+    return float(np.median(table.numbers(column, low, high))) if column in table else None
+
+
+def _missing(table: Table, needed: str) -> InputError:
+    """The error that a column is missing."""
+    return InputError(
+        table.path, f"has no column {needed}; its columns are {listed(table.columns)}; allowed: {_CSV_COLUMNS}"
+    )

@@ -1,0 +1,116 @@
+"""What is the value at a depth, and its slope? Piecewise cubic profiles that run as plain Python or compiled.
+
+Between samples a profile is the monotone cubic of Fritsch and Carlson (1980, SIAM J. Numer. Anal. 17, 238-246): it
+passes through every sample, has a continuous slope and never overshoots. Beyond its first and last sample it is held
+constant.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from glidercli.errors import InputError
+from glidercli.kernel import kernel
+
+__all__ = ["Profile", "cubic", "cubic_slope", "locate", "pchip", "slope", "value"]
+
+
+class Profile(NamedTuple):
+    """Quantities by depth, one column each."""
+
+    depth: NDArray[np.float64]
+    """(n,), m, positive down, strictly increasing."""
+    coefficients: NDArray[np.float64]
+    """(4, max(n - 1, 1), k), highest power first, in the local coordinate z - depth[i]."""
+
+
+def pchip(depth: ArrayLike, values: ArrayLike) -> Profile:
+    """The monotone cubic profile through samples; a single sample gives a constant profile.
+
+    Parameters
+    ----------
+    depth : (n,), m, positive down, finite and strictly increasing.
+    values : (n,) or (n, k), one column for each quantity. A column that is NaN throughout is unknown and stays so.
+
+    Raises
+    ------
+    InputError
+        There is no sample, shapes differ, depths do not increase, or a value is missing in a column that has others.
+    """
+    z = np.ascontiguousarray(depth, dtype=np.float64)
+    y = np.asarray(values, dtype=np.float64)
+    if y.ndim == 1:
+        y = y[:, np.newaxis]
+    if z.ndim != 1 or y.ndim != 2 or len(z) == 0 or len(z) != len(y):
+        raise InputError(
+            "profile", f"{z.shape} depths for {y.shape} values; one row of values for each depth is needed"
+        )
+    known = ~np.isnan(y).all(axis=0)
+    if not (np.isfinite(z).all() and np.isfinite(y[:, known]).all()):
+        raise InputError("profile", "holds a depth or value that is not finite; samples that lack one must be left out")
+    if (np.diff(z) <= 0.0).any():
+        raise InputError("profile", "has depths that do not increase; each must be greater than the one before")
+    coefficients = np.zeros((4, max(len(z) - 1, 1), y.shape[1]))
+    coefficients[:, :, ~known] = np.nan
+    if len(z) == 1:
+        coefficients[3, 0] = y[0]
+    else:
+        from scipy.interpolate import PchipInterpolator
+
+        coefficients[:, :, known] = PchipInterpolator(z, y[:, known]).c
+    return Profile(z, coefficients)
+
+
+@kernel
+def locate(profile: Profile, z: float) -> tuple[int, float, bool]:
+    """The interval that holds depth z, m, the coordinate z - depth[i] in it, and whether z is beyond the ends.
+
+    At and beyond an end the coordinate is that of the end.
+    """
+    depth = profile.depth
+    last = depth.shape[0] - 1
+    if last == 0 or z <= depth[0]:
+        return 0, 0.0, True
+    if z >= depth[last]:
+        return last - 1, depth[last] - depth[last - 1], True
+    low, high = 0, last
+    while high - low > 1:
+        middle = (low + high) // 2
+        if depth[middle] <= z:
+            low = middle
+        else:
+            high = middle
+    return low, z - depth[low], False
+
+
+@kernel
+def cubic(profile: Profile, interval: int, x: float, column: int) -> float:
+    """Value of one column at the coordinate x in an interval, both from ``locate``."""
+    c = profile.coefficients
+    a3, a2, a1, a0 = c[0, interval, column], c[1, interval, column], c[2, interval, column], c[3, interval, column]
+    return float(((a3 * x + a2) * x + a1) * x + a0)
+
+
+@kernel
+def cubic_slope(profile: Profile, interval: int, x: float, column: int) -> float:
+    """Derivative of ``cubic`` by x, per m."""
+    c = profile.coefficients
+    a3, a2, a1 = c[0, interval, column], c[1, interval, column], c[2, interval, column]
+    return float((3.0 * a3 * x + 2.0 * a2) * x + a1)
+
+
+@kernel
+def value(profile: Profile, z: float, column: int) -> float:
+    """One column at depth z, m; the end value beyond the ends."""
+    interval, x, _ = locate(profile, z)
+    return cubic(profile, interval, x, column)
+
+
+@kernel
+def slope(profile: Profile, z: float, column: int) -> float:
+    """Derivative of one column by depth at z, per m; zero at and beyond the ends, where the value is held."""
+    interval, x, beyond = locate(profile, z)
+    return 0.0 if beyond else cubic_slope(profile, interval, x, column)

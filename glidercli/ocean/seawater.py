@@ -1,0 +1,99 @@
+"""What does seawater weigh? The TEOS-10 standard (IOC, SCOR and IAPSO 2010), by the GSW toolbox.
+
+Symbols of the manual: SP practical salinity (PSS-78, no unit), SA absolute salinity (g/kg), t in-situ temperature
+(degC, ITS-90), CT conservative temperature (degC), p sea pressure (dbar: absolute less 10.1325 dbar). All functions
+take numbers or arrays and give arrays. Depth is positive down; longitude and latitude are in degrees, east and north
+positive. Values outside the fitted range are not clipped; readers check theirs beforehand.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from glidercli.errors import InputError
+
+__all__ = [
+    "absolute_salinity",
+    "checked_latitude",
+    "conservative_temperature",
+    "density",
+    "depth_from_pressure",
+    "gravity",
+    "practical_salinity",
+    "pressure_from_depth",
+    "t90_from_t68",
+]
+
+Array = NDArray[np.float64]
+
+
+def practical_salinity(conductivity: ArrayLike, temperature: ArrayLike, pressure_dbar: ArrayLike) -> Array:
+    """SP from conductivity in S/m, t and p, by PSS-78, extended below 2 after Hill et al. (1986)."""
+    import gsw
+
+    millisiemens_per_centimetre = 10.0 * np.asarray(conductivity, dtype=float)
+    return np.asarray(gsw.SP_from_C(millisiemens_per_centimetre, temperature, pressure_dbar), dtype=float)
+
+
+def absolute_salinity(salinity: ArrayLike, pressure_dbar: ArrayLike, longitude: float | None, latitude: float) -> Array:
+    """SA, g/kg, from SP, p and place, by the global anomaly atlas of McDougall et al. (2012).
+
+    Without a longitude, and where the atlas has no value, it is the reference salinity, SP 35.16504 / 35: too small by
+    up to 0.025 g/kg (0.02 kg/m3 of density) in the open ocean, 0.07 g/kg in the Baltic.
+    """
+    import gsw
+
+    reference = np.asarray(gsw.SR_from_SP(salinity), dtype=float)
+    if longitude is None:
+        return reference
+    here = np.asarray(gsw.SA_from_SP(salinity, pressure_dbar, longitude, latitude), dtype=float)
+    return np.where(np.isfinite(here), here, reference)
+
+
+def conservative_temperature(absolute_salinity: ArrayLike, temperature: ArrayLike, pressure_dbar: ArrayLike) -> Array:
+    """CT, degC, from SA in g/kg, t and p."""
+    import gsw
+
+    return np.asarray(gsw.CT_from_t(absolute_salinity, temperature, pressure_dbar), dtype=float)
+
+
+def density(absolute_salinity: ArrayLike, temperature: ArrayLike, pressure_dbar: ArrayLike) -> Array:
+    """In-situ density, kg/m3, from SA in g/kg, t and p: the 75-term polynomial of Roquet et al. (2015)."""
+    import gsw
+
+    conservative = conservative_temperature(absolute_salinity, temperature, pressure_dbar)
+    return np.asarray(gsw.rho(absolute_salinity, conservative, pressure_dbar), dtype=float)
+
+
+def depth_from_pressure(pressure_dbar: ArrayLike, latitude: float) -> Array:
+    """Depth, m, positive down, of a pressure, in standard water (SA 35.16504 g/kg, 0 degC) at a latitude."""
+    import gsw
+
+    return -np.asarray(gsw.z_from_p(pressure_dbar, latitude), dtype=float)
+
+
+def pressure_from_depth(depth: ArrayLike, latitude: float) -> Array:
+    """Pressure, dbar, at a depth in m, positive down; the inverse of ``depth_from_pressure``."""
+    import gsw
+
+    return np.asarray(gsw.p_from_z(-np.asarray(depth, dtype=float), latitude), dtype=float)
+
+
+def gravity(latitude: float) -> float:
+    """Acceleration of gravity at the sea surface, m/s2, by the formula of GRS80 (Moritz 2000)."""
+    import gsw
+
+    return float(gsw.grav(checked_latitude(latitude), 0.0))
+
+
+def checked_latitude(latitude: float) -> float:
+    """The latitude, deg, if it lies on the globe; else InputError."""
+    if not -90.0 <= latitude <= 90.0:
+        raise InputError("latitude", f"{latitude:g} deg, allowed -90 to 90")
+    return latitude
+
+
+def t90_from_t68(temperature_68: ArrayLike) -> Array:
+    """Temperature on ITS-90 from that on IPTS-68, degC: t90 = t68 / 1.00024 (Saunders 1990)."""
+    return np.asarray(temperature_68, dtype=float) / 1.00024

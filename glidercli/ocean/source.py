@@ -1,0 +1,49 @@
+"""What text does a file hold? Plain or gzipped, UTF-8 with or without a byte-order mark, else Latin-1."""
+
+from __future__ import annotations
+
+import gzip
+import zlib
+from pathlib import Path
+
+from glidercli.errors import InputError
+from glidercli.files import readable_file
+
+__all__ = ["listed", "read_text"]
+
+_GZIP = b"\x1f\x8b"
+_TEXT_CONTROLS = b"\t\n\v\f\r\x1a"  # \x1a ends text files written by DOS programs
+_NOT_TEXT = bytes(code for code in range(32) if code not in _TEXT_CONTROLS)
+
+
+def read_text(path: Path, expected: str) -> str:
+    """The text of a file, unpacked if it is gzipped.
+
+    expected : what the file should be, for the message when it is no text: "a CTD cast is ...".
+
+    Raises
+    ------
+    InputError
+        The file is missing, a folder, unreadable, empty, a damaged gzip file, or no text.
+    """
+    data = readable_file(path).read_bytes()
+    if data.startswith(_GZIP):
+        try:
+            data = gzip.decompress(data)
+        except (OSError, EOFError, zlib.error) as error:
+            raise InputError(path, f"is a damaged gzip file: {error}") from None
+    if data.translate(None, _NOT_TEXT) != data:
+        raise InputError(path, f"is not a text file; {expected}")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    if not text.strip():
+        raise InputError(path, "is empty")
+    return text
+
+
+def listed(names: tuple[str, ...], most: int = 30) -> str:
+    """Names as text for a message, at most so many."""
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + more
