@@ -1,0 +1,122 @@
+"""``glider compare``: a simulation held against a measured log or published values."""
+
+from __future__ import annotations
+
+import math
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from glidercli.cli.options import Debug, Force, Json, Quiet, output_option
+
+if TYPE_CHECKING:
+    from glidercli.compare import Facts
+    from glidercli.log import Log
+
+
+class Align(StrEnum):
+    """How a simulated clock is laid on the measured one."""
+
+    NONE = "none"
+    START = "start"
+    XCORR = "xcorr"
+
+
+def compare(
+    measured: Annotated[
+        str, typer.Argument(help="Measured log, a TOML file of published values, or the name of a shipped trial.")
+    ],
+    simulated: Annotated[list[str], typer.Argument(help="Simulated logs, one or more.")],
+    align: Annotated[
+        Align,
+        typer.Option(
+            help="Clocks: none as they are, start at the first depth sample, xcorr where the depths lie closest."
+        ),
+    ] = Align.NONE,
+    offset: Annotated[float, typer.Option(metavar="S", help="Seconds added to the simulated times after that.")] = 0.0,
+    max_gap: Annotated[
+        float, typer.Option(metavar="S", help="Simulated samples further apart are not interpolated between, s.")
+    ] = 60.0,
+    channels: Annotated[
+        list[str] | None, typer.Option(metavar="NAME", help="Channel or quoted pattern (mass_*); may repeat.")
+    ] = None,
+    output: Annotated[list[Path] | None, output_option(".csv .json .png .svg .pdf")] = None,
+    force: Force = False,
+    json: Json = False,
+    quiet: Quiet = False,
+    debug: Debug = False,
+) -> None:
+    """Errors of a simulation by channel and phase, or its verdicts on published values."""
+    from glidercli.cli.printing import json_text, say, warn
+    from glidercli.compare import SUFFIXES, matching, write
+    from glidercli.compare import compare as compared
+    from glidercli.compare.output import metadata_path
+    from glidercli.errors import InputError
+    from glidercli.files import check_outputs
+    from glidercli.provenance import provenance
+
+    if not max_gap > 0.0:
+        raise typer.BadParameter(f"{max_gap} s; allowed: a positive time", param_hint="--max-gap")
+    if not math.isfinite(offset):
+        raise typer.BadParameter(f"{offset} s; allowed: a finite number", param_hint="--offset")
+    try:
+        matching(channels or [])
+    except InputError as error:
+        raise typer.BadParameter(str(error), param_hint="--channels") from error
+    files = [path for path in output or [] if path != Path("-")]
+    check_outputs(files, SUFFIXES, force)
+    check_outputs([metadata_path(path) for path in files if path.suffix.lower() == ".csv"], (".json",), force)
+
+    facts = _facts_file(measured)
+    inputs: list[Path] = []
+    against: Log | Facts
+    if facts is not None:
+        from glidercli.compare import read_facts
+
+        against = read_facts(facts)
+        inputs.append(facts)
+        if align != Align.NONE or offset:
+            warn(["--align and --offset have no effect on a comparison with published values"], quiet)
+    else:
+        against = _log(measured, inputs, quiet)
+    logs = [_log(name, inputs, quiet) for name in simulated]
+    comparison = compared(
+        against,
+        logs,
+        align=align.value,
+        offset=offset,
+        max_gap=max_gap,
+        channels=channels,
+        names=[measured, *simulated],
+    )
+    for path in files:
+        write(comparison, path, provenance(inputs=dict.fromkeys(inputs), origin=comparison.origin), force)
+        say(f"wrote {path}", quiet)
+    print(json_text(comparison.document()) if json or Path("-") in (output or []) else comparison.text())
+
+
+def _facts_file(text: str) -> Path | None:
+    """The facts TOML that an argument stands for: itself, in a folder or in a shipped trial; None for a log."""
+    from glidercli import shipped
+    from glidercli.files import readable_file
+
+    path = Path(text)
+    if path.suffix.lower() == ".toml":
+        return readable_file(path)
+    if (path / "facts.toml").is_file():
+        return path / "facts.toml"
+    folder = None if path.exists() else shipped.find(text)
+    return None if folder is None else readable_file(folder / "facts.toml")
+
+
+def _log(text: str, inputs: list[Path], quiet: bool) -> Log:
+    """Read one log; its files join the inputs."""
+    from glidercli.cli.printing import warn
+    from glidercli.logio import read
+
+    reading = read([text])
+    inputs += [Path(file.path) for file in reading.files]
+    warn([f"{file.path}: {message}" for file in reading.files for message in file.warnings], quiet)
+    return reading.log

@@ -1,0 +1,279 @@
+"""What does a comparison look like? One panel per channel, both sides overlaid, the error beneath; or published bands.
+
+The colours are those of Okabe and Ito, told apart by readers of every colour vision and, by line style, in grey print.
+Files are the same bytes for the same comparison: no dates, no random identifiers.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glidercli.channels import CHANNELS
+from glidercli.compare.bands import BAND, draw_facts
+from glidercli.compare.errors import on_circle, table_values
+from glidercli.compare.facts import Facts
+from glidercli.errors import InputError
+from glidercli.log import Channel, Log
+from glidercli.units import HOUR, NANOSECOND
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from glidercli.compare.comparison import Comparison, Run, Side
+
+__all__ = ["figure", "save"]
+
+PANELS = ("depth", "pitch", "roll", "heading", "mass_position", "mass_rotation")
+"""Channels shown where present, unless others were asked for."""
+
+MOST_PANELS = 8
+"""Panels that stay legible on one page; a figure shows the first ones and says how many it leaves out."""
+
+WIDTH = 7.2
+"""inch, the width of a page's text."""
+
+MEASURED = "#000000"
+SIMULATED = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+STYLES: tuple[Any, ...] = ("-", (0, (4, 1.5)), "-.", ":")
+
+_STYLE: dict[str, Any] = {
+    "font.family": "DejaVu Sans", "font.size": 7.5, "axes.titlesize": 8, "axes.labelsize": 7.5, "legend.fontsize": 7.5,
+    "xtick.labelsize": 7, "ytick.labelsize": 7, "axes.linewidth": 0.6, "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6, "axes.grid": True, "grid.color": "#DDDDDD", "grid.linewidth": 0.5, "axes.axisbelow": True,
+    "svg.hashsalt": "glidercli", "pdf.fonttype": 42, "axes.formatter.useoffset": False,
+    "axes.unicode_minus": True, "path.simplify": True,
+}  # fmt: skip
+
+
+def figure(comparison: Comparison) -> Figure:
+    """The comparison as a matplotlib figure; drawn without a display."""
+    import matplotlib
+
+    with _defaults(matplotlib):
+        return _drawn(comparison)
+
+
+def save(comparison: Comparison, path: Path, description: str) -> None:
+    """Write the figure; the ending of ``path`` picks PNG, SVG or PDF; ``description`` is kept in its metadata."""
+    import matplotlib
+
+    metadata: dict[str, dict[str, Any]] = {
+        ".png": {"Description": description},
+        ".svg": {"Description": description, "Date": None},
+        ".pdf": {"Subject": description, "CreationDate": None, "ModDate": None},
+    }
+    kind = path.suffix.lower()
+    with _defaults(matplotlib):
+        _drawn(comparison).savefig(path, format=kind[1:], dpi=200, metadata=metadata[kind])
+
+
+@contextlib.contextmanager
+def _defaults(matplotlib: Any) -> Any:
+    """Matplotlib's own settings with ours on top, whatever the user's file says; restored afterwards."""
+    own = {key: value for key, value in matplotlib.rcParamsDefault.items() if not key.startswith(("backend", "date."))}
+    with matplotlib.rc_context({**own, **_STYLE}):
+        yield
+
+
+def _drawn(comparison: Comparison) -> Figure:
+    from matplotlib.figure import Figure
+
+    names = _panels(comparison)
+    if not names:
+        raise InputError(comparison.runs[0].side.name, "has none of the channels that the figure would show")
+    left_out, names = len(names) - len(names[:MOST_PANELS]), names[:MOST_PANELS]
+    measured = comparison.against if isinstance(comparison.against, Log) else None
+    columns = 1 if len(names) == 1 else 2
+    rows = -(-len(names) // columns)
+    head = 0.3 + 0.16 * (len(comparison.runs) + 1)
+    panel = 2.45 if measured is not None else 1.9
+    foot = 0.45 if measured is not None else 0.6
+    height = head + rows * panel + foot
+    drawing = Figure(figsize=(WIDTH, height))
+    grid = drawing.add_gridspec(
+        rows, columns, left=0.1, right=0.985, top=1.0 - head / height, bottom=foot / height,
+        hspace=0.24 if measured is not None else 0.3, wspace=0.28,
+    )  # fmt: skip
+    zero, unit, scale = _clock(comparison)
+    main: dict[str, Axes] = {}
+    lowest = []
+    for number, name in enumerate(names):
+        cell = grid[number // columns, number % columns]
+        if any(name in run.residuals and len(run.residuals[name].error) for run in comparison.runs):
+            inner = cell.subgridspec(2, 1, height_ratios=(2.2, 1.0), hspace=0.09)
+            axes = drawing.add_subplot(inner[0])
+            beneath = drawing.add_subplot(inner[1], sharex=axes)
+            axes.tick_params(labelbottom=False)
+            _errors(beneath, comparison, name, zero, scale)
+            lowest.append(beneath)
+        else:
+            axes = drawing.add_subplot(cell)
+            lowest.append(axes)
+        _curves(axes, comparison, name, zero, scale)
+        main[name] = axes
+    since = "the measured log's first sample" if measured is not None else "the first sample"
+    if measured is not None:
+        for axes in lowest:
+            axes.set_xlim(_span(comparison, measured, names, zero, scale))
+    for axes in lowest[-columns:]:
+        axes.set_xlabel(f"time, {unit}, from {since}")
+    notes = [f"{left_out} more channels are not shown."] if left_out else []
+    if isinstance(comparison.against, Facts):
+        notes += draw_facts(main, comparison.runs, zero, scale)
+        ends = [axes.get_xlim() for axes in main.values()]  # a published time may lie beyond the simulated ones
+        for axes in main.values():
+            axes.set_xlim(min(left for left, _ in ends), max(right for _, right in ends))
+    for column in range(columns):
+        drawing.align_ylabels([*list(main.values())[column::columns], *lowest[column::columns]])
+    _heading(drawing, comparison, height, notes)
+    return drawing
+
+
+def _panels(comparison: Comparison) -> list[str]:
+    """Names of the channels to show."""
+    if isinstance(comparison.against, Facts):
+        concerned = [one.fact.channel for one in comparison.runs[0].facts if one.fact.channel]
+        concerned += ["density" for one in comparison.runs[0].facts if one.fact.quantity == "density_change"]
+        wanted = list(dict.fromkeys([*PANELS, *concerned]))
+        logs = [run.log for run in comparison.runs]
+    else:
+        compared = {name for run in comparison.runs for name in run.residuals}
+        wanted = [*PANELS, *(name for name in CHANNELS if name in compared and name not in PANELS)]
+        if compared.intersection(PANELS):
+            wanted = list(PANELS)
+        logs = [comparison.against, *(run.log for run in comparison.runs)]
+    if comparison.chosen is not None:
+        wanted = list(comparison.chosen)
+    return [name for name in wanted if any(name in log and len(log[name]) for log in logs)]
+
+
+def _clock(comparison: Comparison) -> tuple[int, str, float]:
+    """Zero of the time axis, UTC ns; its unit; and that unit per ns."""
+    logs = [run.log for run in comparison.runs]
+    if isinstance(comparison.against, Log):
+        logs = [comparison.against]
+    zero = min(log.start_ns for log in logs)
+    long = max(log.end_ns for log in logs) - zero > 4 * HOUR / NANOSECOND
+    return zero, "h" if long else "s", NANOSECOND / (HOUR if long else 1.0)
+
+
+def _span(comparison: Comparison, measured: Log, names: list[str], zero: int, scale: float) -> tuple[float, float]:
+    """Ends of the time axis: those of the measured channels shown, or the simulated ones' where there is none."""
+    for logs in ([measured], [run.log for run in comparison.runs]):
+        shown = [log[name].time_ns for log in logs for name in names if name in log and len(log[name])]
+        if shown:
+            break
+    first, last = min(int(t[0]) for t in shown), max(int(t[-1]) for t in shown)
+    margin = max(last - first, round(1.0 / NANOSECOND)) * 0.02
+    return (first - zero - margin) * scale, (last - zero + margin) * scale
+
+
+def _curves(axes: Axes, comparison: Comparison, name: str, zero: int, scale: float) -> None:
+    """One channel of every log that has it."""
+    reference: Channel | None = None
+    if isinstance(comparison.against, Log) and name in comparison.against:
+        reference = comparison.against[name]
+        _line(axes, reference, table_values(reference), zero, scale, comparison.max_gap, MEASURED, "-", 1.6)
+    for number, run in enumerate(comparison.runs):
+        if name in run.log and len(run.log[name]):
+            channel = run.log[name]
+            values = table_values(channel)
+            if on_circle(name) and reference is not None and len(reference):
+                values = values + _turns(run, name, values[0])
+            colour, style = _look(number)
+            _line(axes, channel, values, zero, scale, comparison.max_gap, colour, style, 1.1)
+    axes.set_title(name.replace("_", " "), loc="left", pad=3)
+    axes.set_ylabel(_unit(name))
+    if name in ("depth", "down", "pressure"):
+        axes.invert_yaxis()
+
+
+def _turns(run: Run, name: str, fallback: float) -> float:
+    """Whole turns, deg, that bring the simulated curve beside the measured one where they are first compared."""
+    if name not in run.residuals or not len(run.residuals[name].error):
+        return -360.0 * round(fallback / 360.0)
+    both = run.residuals[name]
+    return 360.0 * float(np.round((both.measured[0] + both.error[0] - both.simulated[0]) / 360.0))
+
+
+def _line(
+    axes: Axes, channel: Channel, values: NDArray[np.float64], zero: int, scale: float, max_gap: float, colour: str,
+    style: Any, width: float,
+) -> None:  # fmt: skip
+    """A line through the samples, broken where they are further apart than max_gap and than usual; few get dots."""
+    time = (channel.time_ns - zero) * scale
+    steps = np.diff(channel.time_ns) * NANOSECOND
+    usual = float(np.median(steps)) if len(steps) else 0.0
+    breaks = np.flatnonzero(steps > max(max_gap, 3.0 * usual)) + 1
+    axes.plot(
+        np.insert(time, breaks, np.nan), np.insert(values, breaks, np.nan), color=colour, linestyle=style,
+        linewidth=width, marker="." if len(time) <= 60 else "", markersize=3.0,
+    )  # fmt: skip
+
+
+def _errors(axes: Axes, comparison: Comparison, name: str, zero: int, scale: float) -> None:
+    """Simulated less measured, on the measured samples' times."""
+    axes.axhline(0.0, color=MEASURED, linewidth=0.6)
+    drawn = np.zeros(0)
+    for number, run in enumerate(comparison.runs):
+        if name in run.residuals and len(run.residuals[name].error):
+            both = run.residuals[name]
+            channel = Channel(name, both.time_ns, both.error)
+            drawn = np.concatenate([drawn, both.measured])
+            _line(axes, channel, both.error, zero, scale, comparison.max_gap, *_look(number), 0.9)
+    low, high = axes.get_ylim()
+    least = 1e-6 * float(np.ptp(drawn))
+    axes.locator_params(axis="y", nbins=4)
+    if high - low < least:  # rounding errors are no signal
+        axes.set_ylim(-least, least)
+        axes.set_yticks([0.0])
+    axes.set_ylabel(f"error, {_unit(name)}".rstrip(", "))
+    axes.yaxis.set_major_formatter(lambda value, _: f"{value:.4g}".replace("-", "−"))
+
+
+def _look(number: int) -> tuple[str, Any]:
+    """Colour and line style of a simulated log, each other than its neighbour's."""
+    return SIMULATED[number % len(SIMULATED)], STYLES[number % len(STYLES)]
+
+
+def _unit(name: str) -> str:
+    unit = CHANNELS[name].column_unit
+    return "" if unit == "1" else unit
+
+
+def _heading(drawing: Figure, comparison: Comparison, height: float, notes: list[str]) -> None:
+    """Legend with the origin of each side at the top, notes at the foot."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    entries: list[Any] = []
+    if isinstance(comparison.against, Facts):
+        label = _shortened(f"published, with tolerance: {comparison.against.source}")
+        entries.append(Patch(color=BAND, alpha=0.45, linewidth=0, label=label))
+    else:
+        entries.append(Line2D([], [], color=MEASURED, linewidth=1.6, label=_label(comparison.measured)))
+    for number, run in enumerate(comparison.runs):
+        colour, style = _look(number)
+        entries.append(Line2D([], [], color=colour, linestyle=style, linewidth=1.1, label=_label(run.side)))
+    drawing.legend(
+        handles=entries, loc="upper left", bbox_to_anchor=(0.09, 1.0 - 0.04 / height), frameon=False, ncols=1,
+        borderaxespad=0.0, handlelength=2.2, labelspacing=0.35,
+    )  # fmt: skip
+    for number, line in enumerate(notes):
+        drawing.text(0.1, (0.05 + 0.13 * number) / height, _shortened(line), fontsize=6.5, va="bottom")
+
+
+def _label(side: Side) -> str:
+    """Origin first, since it matters more than the name."""
+    said = f" ({side.kind.removeprefix(side.origin).lstrip(',: ')})" if side.reconstruction else ""
+    return _shortened(f"{side.origin}: {side.name}{said}")
+
+
+def _shortened(line: str, most: int = 125) -> str:
+    return line if len(line) <= most else line[: most - 1] + "…"

@@ -1,0 +1,222 @@
+"""``glider compare`` from the contract's words: what is on stdout, what on stderr, and the exit code."""
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+GLIDER = Path(sys.executable).with_name("glider")
+START = np.datetime64("2011-07-20T04:28:00.000", "ms")
+FACTS = """
+[facts]
+source = "A paper"
+[[fact]]
+name = "maximum depth"
+quantity = "max_depth"
+value = 300.0
+unit = "m"
+tolerance = 10.0
+place = "p. 11"
+[[fact]]
+name = "pitch on the dive"
+quantity = "mean"
+channel = "pitch"
+phase = "dive"
+value = -40.0
+unit = "deg"
+tolerance = 2.0
+place = "p. 12"
+note = "also a control input"
+[[fact]]
+name = "roll"
+quantity = "mean"
+channel = "roll"
+value = 28.0
+unit = "deg"
+tolerance = 2.0
+place = "p. 13"
+"""
+
+
+def glider(*arguments: object, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [GLIDER, "compare", *map(str, arguments)], capture_output=True, text=True, cwd=folder, timeout=120
+    )
+
+
+def write_log(path: Path, deeper: float = 0.0, turned: float = 0.0, late: float = 0.0) -> Path:
+    """300 m down in 1000 s and up again, a sample every 5 s; heading turns through north."""
+    seconds = np.arange(0.0, 2001.0, 5.0)
+    depth = np.interp(seconds, [0.0, 1000.0, 2000.0], [0.0, 300.0, 0.0]) + deeper
+    lines = ["time_utc,elapsed_s,depth_m,pitch_deg,heading_deg"]
+    for t, d in zip(seconds, depth, strict=True):
+        time = START + np.timedelta64(round((t + late) * 1000), "ms")
+        pitch = -30.0 if t <= 1000.0 else 30.0
+        lines.append(f"{time}Z,{t},{d},{pitch},{(350.0 + 0.1 * t + turned) % 360.0}")
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def logs(tmp_path: Path) -> tuple[Path, Path]:
+    return write_log(tmp_path / "measured.csv"), write_log(tmp_path / "simulated.csv", deeper=2.0, turned=20.0)
+
+
+@pytest.fixture
+def facts(tmp_path: Path) -> Path:
+    path = tmp_path / "facts.toml"
+    path.write_text(FACTS, encoding="utf-8")
+    return path
+
+
+def failed(result: subprocess.CompletedProcess[str], code: int) -> str:
+    """The message of a failure: one line on stderr after nothing on stdout, and no traceback."""
+    assert result.returncode == code
+    assert result.stdout == ""
+    assert "Traceback" not in result.stderr
+    if code == 1:
+        assert result.stderr.startswith("glider: error: ")
+        assert result.stderr.count("\n") == 1
+    return result.stderr
+
+
+def test_json_is_one_document_in_the_contracts_form(logs) -> None:
+    result = glider(*logs, "--json")
+    assert result.returncode == 0, result.stderr
+    found = json.loads(result.stdout)
+    assert {"align", "channels", "phases", "events", "facts"} <= set(found)
+    for name, unit in {"depth": "m", "pitch": "deg", "heading": "deg"}.items():
+        one = found["channels"][name]
+        assert set(one) >= {"unit", "n", "rmse", "mae", "bias", "std", "max", "correlation", "nrmse"}
+        assert (one["unit"], one["n"]) == (unit, 401)
+    # the CSV holds every digit of the values: rounding of unit conversions alone
+    assert found["channels"]["depth"]["bias"] == pytest.approx(2.0, abs=1e-9)
+    assert found["channels"]["heading"]["max"] == pytest.approx(20.0, abs=1e-9)  # across north: not 340
+    assert set(found["phases"]) == {"dive", "climb"}
+    assert found["phases"]["climb"]["depth"]["bias"] == pytest.approx(2.0, abs=1e-9)
+
+
+def test_the_table_for_people_says_what_was_compared(logs) -> None:
+    result = glider(*logs)
+    assert result.returncode == 0, result.stderr
+    first = result.stdout.splitlines()[0]
+    assert str(logs[0]) in first
+    assert str(logs[1]) in first
+    assert all(word in result.stdout for word in ("flight:", "dive:", "climb:", "rmse", "depth", "heading"))
+
+
+def test_align_and_offset(tmp_path: Path, logs) -> None:
+    late = write_log(tmp_path / "late.csv", late=7200.0)
+    assert "--align start" in failed(glider(logs[0], late), 1)
+    for method in ("start", "xcorr"):
+        found = json.loads(glider(logs[0], late, "--align", method, "--json").stdout)
+        assert found["align"]["shift_s"] == pytest.approx(-7200.0, abs=1e-3)  # the same curves: rounding alone
+    found = json.loads(glider(logs[0], late, "--offset", "-7200", "--json").stdout)
+    assert found["channels"]["depth"]["rmse"] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_channels_repeat_or_are_a_pattern(logs) -> None:
+    found = json.loads(glider(*logs, "--channels", "depth", "--channels", "pi*", "--json").stdout)
+    assert set(found["channels"]) == {"depth", "pitch"}
+    assert "depht" in failed(glider(*logs, "--channels", "depht"), 2)
+
+
+def test_several_simulations(tmp_path: Path, logs) -> None:
+    other = write_log(tmp_path / "other.csv", deeper=-1.0)
+    found = json.loads(glider(*logs, other, "--json").stdout)
+    assert [one["name"] for one in found["simulations"]] == [str(logs[1]), str(other)]
+
+
+def test_outputs(tmp_path: Path, logs) -> None:
+    names = ["errors.csv", "errors.json", "figure.png", "figure.svg", "figure.pdf"]
+    options = [option for name in names for option in ("-o", tmp_path / name)]
+    result = glider(*logs, *options)
+    assert result.returncode == 0, result.stderr
+    assert all((tmp_path / name).stat().st_size for name in names)
+    with (tmp_path / "errors.csv").open(newline="") as stream:
+        assert {"channel", "phase", "rmse"} <= set(next(csv.reader(stream)))
+    record = json.loads((tmp_path / "errors.csv-metadata.json").read_text())
+    assert [Path(one["path"]).name for one in record["inputs"]] == ["measured.csv", "simulated.csv"]
+    assert all(len(one["sha256"]) == 64 for one in record["inputs"])
+    assert "exists" in failed(glider(*logs, "-o", tmp_path / "errors.csv"), 1)
+    assert glider(*logs, "-o", tmp_path / "errors.csv", "--force").returncode == 0
+
+
+def test_dash_is_json_on_stdout(logs) -> None:
+    result = glider(*logs, "-o", "-")
+    assert json.loads(result.stdout) == json.loads(glider(*logs, "--json").stdout)
+
+
+@pytest.mark.parametrize("name", ["report.html", "overlay.rrd", "errors"])
+def test_an_unknown_output_lists_what_is_allowed(tmp_path: Path, logs, name: str) -> None:
+    assert ".csv .json .png .svg .pdf" in failed(glider(*logs, "-o", tmp_path / name), 1)
+
+
+def test_nothing_is_written_when_the_comparison_fails(tmp_path: Path, logs) -> None:
+    late = write_log(tmp_path / "late.csv", late=7200.0)
+    failed(glider(logs[0], late, "-o", tmp_path / "errors.csv"), 1)
+    assert {path.name for path in tmp_path.iterdir()} == {"measured.csv", "simulated.csv", "late.csv"}
+
+
+def test_missing_and_empty_files(tmp_path: Path, logs) -> None:
+    assert "nowhere.csv" in failed(glider(logs[0], tmp_path / "nowhere.csv"), 1)
+    assert "nowhere.toml" in failed(glider(tmp_path / "nowhere.toml", logs[1]), 1)
+    (tmp_path / "empty.csv").touch()
+    assert "empty.csv" in failed(glider(logs[0], tmp_path / "empty.csv"), 1)
+
+
+@pytest.mark.parametrize(
+    "options", [("--align", "best"), ("--max-gap", "0"), ("--max-gap", "nan"), ("--offset", "inf"), ("--max-gop", "3")]
+)
+def test_wrong_usage(logs, options: tuple[str, ...]) -> None:
+    assert options[0] in failed(glider(*logs, *options), 2)
+
+
+def test_a_simulated_log_is_needed(logs) -> None:
+    assert glider(logs[0]).returncode == 2
+
+
+def test_facts(logs, facts: Path) -> None:
+    result = glider(facts, logs[1], "--json")
+    assert result.returncode == 0, result.stderr
+    verdicts = json.loads(result.stdout)["facts"]
+    assert all({"name", "published", "simulated", "tolerance", "verdict", "place"} <= set(one) for one in verdicts)
+    assert [one["verdict"] for one in verdicts] == ["agrees", "disagrees", "not simulated"]
+    assert verdicts[0]["simulated"] == pytest.approx(302.0, abs=1e-9)  # a sample stands at the apogee
+    text = glider(facts, logs[1]).stdout
+    assert "published values" in text.splitlines()[0]
+    assert all(word in text for word in ("300 ± 10", "disagrees", "not simulated", "p. 12", "also a control input"))
+
+
+def test_facts_with_faults_name_them_all_in_one_line(logs, facts: Path) -> None:
+    facts.write_text(FACTS.replace("tolerance = 10.0", "").replace('"deg"', '"rad"'), encoding="utf-8")
+    message = failed(glider(facts, logs[1]), 1)
+    assert "tolerance: missing" in message
+    assert message.count("unit = 'rad'") == 2
+
+
+def test_outputs_of_facts(tmp_path: Path, logs, facts: Path) -> None:
+    result = glider(facts, logs[1], "-o", tmp_path / "facts.csv", "-o", tmp_path / "facts.png")
+    assert result.returncode == 0, result.stderr
+    with (tmp_path / "facts.csv").open(newline="") as stream:
+        assert [row["verdict"] for row in csv.DictReader(stream)] == ["agrees", "disagrees", "not simulated"]
+    assert (tmp_path / "facts.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_quiet_keeps_stderr_empty(tmp_path: Path, logs) -> None:
+    assert glider(*logs, "--quiet", "-o", tmp_path / "a.json").stderr == ""
+
+
+def test_debug_shows_the_traceback(tmp_path: Path, logs) -> None:
+    result = glider(logs[0], tmp_path / "nowhere.csv", "--debug")
+    assert result.returncode == 1
+    assert "Traceback" in result.stderr
+
+
+def test_a_folder_with_facts_stands_for_them(logs, facts: Path) -> None:
+    found = json.loads(glider(facts.parent, logs[1], "--json").stdout)
+    assert [one["name"] for one in found["facts"]] == ["maximum depth", "pitch on the dive", "roll"]
