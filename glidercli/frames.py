@@ -137,20 +137,20 @@ def quaternion_from_euler_arrays(roll: Array, pitch: Array, heading: Array) -> A
 def euler_from_quaternion_arrays(q_wxyz: Array) -> tuple[Array, Array, Array]:
     """Roll, pitch in [-pi/2, pi/2] and heading in [0, 2 pi), rad, each (n,), from unit quaternions of shape (n, 4).
 
-    Within 1e-9 of pitch +-90 deg roll and heading are not separate: roll is zero there and heading carries both.
+    Within 1e-7 rad of pitch +-90 deg roll and heading are not separate: roll is zero there and heading carries both.
     """
     import numpy as np
 
     w, x, y, z = np.moveaxis(np.asarray(q_wxyz, dtype=float), -1, 0)
-    sine = np.clip(2.0 * (w * y - z * x), -1.0, 1.0)
-    upright = 1.0 - np.abs(sine) < 1e-18
+    level = np.hypot(w * x + y * z, 0.5 - x * x - y * y) * 2.0  # cos(pitch)
+    upright = level < 1e-7
     roll = np.where(upright, 0.0, np.arctan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y)))
     heading = np.where(
         upright,
         np.arctan2(2.0 * (w * z - x * y), 1.0 - 2.0 * (x * x + z * z)),
         np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)),
     )
-    return roll, np.arcsin(sine), np.mod(heading, 2.0 * np.pi)
+    return roll, np.arctan2(2.0 * (w * y - z * x), level), np.mod(heading, 2.0 * np.pi)
 
 
 def wrapped(angle: Array) -> Array:

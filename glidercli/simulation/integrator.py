@@ -22,6 +22,7 @@ from glidercli.model.equations import State, Water, rates
 from glidercli.model.parameters import Controls, Parameters
 from glidercli.ocean.ocean import at_depth
 from glidercli.ocean.profile import Profile
+from glidercli.units import DBAR
 
 __all__ = ["Run", "Sea", "controls_at", "integrate", "state_of", "water_at"]
 
@@ -62,7 +63,7 @@ def water_at(sea: Sea, depth: float) -> Water:
     """The water at a depth, m, as the model wants it."""
     here = at_depth(sea.water, sea.current, depth)
     return Water(
-        here.density, here.pressure_dbar * 1e4, here.temperature, here.current_ned, here.current_shear_ned, sea.gravity
+        here.density, here.pressure_dbar * DBAR, here.temperature, here.current_ned, here.current_shear_ned, sea.gravity
     )
 
 

@@ -1,0 +1,129 @@
+"""DESIGN, contract of ``glider simulate``, from its words alone."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from conftest import ROOT, Run, one_line_error
+
+CONTROLS = ("--net-buoyancy", "0.3", "--mass-position", "0.4216", "--mass-rotation", "45")
+CNV = ROOT / "tests/data/ctd/dPIRX010.cnv"
+
+
+def table(path: Path, *rows: str) -> Path:
+    path.write_text("\n".join(rows) + "\n")
+    return path
+
+
+def test_json_has_the_contracts_keys(glider_json: Callable[..., Any]) -> None:
+    document = glider_json("simulate", *CONTROLS, "--duration", "60")
+    assert set(document) >= {
+        "duration_s", "max_depth_m", "final", "events", "distance_m", "energy_j", "warnings", "wall_s",
+        "simulated_seconds_per_second",
+    }  # fmt: skip
+    assert document["duration_s"] == 60.0
+    assert {"depth_m", "pitch_deg", "speed_through_water_m_s", "net_buoyancy_kg"} <= set(document["final"])
+    assert all(set(event) == {"name", "time_s", "depth_m"} for event in document["events"])
+
+
+def test_starts_from_rest_level_heading_north_at_the_start_depth(glider: Run) -> None:
+    done = glider("simulate", *CONTROLS, "--duration", "10", "--start-depth", "20", "-o", "-")
+    assert done.returncode == 0, done.stderr
+    first = next(csv.DictReader(done.stdout.splitlines()))
+    assert float(first["depth_m"]) == 20.0
+    for name in ("speed_through_water_m_s", "pitch_deg", "roll_deg", "heading_deg", "p_deg_s", "north_m"):
+        assert abs(float(first[name])) < 1e-12, name  # exact zeros, save for the rounding of a rotation
+
+
+def test_every_sets_the_samples(glider: Run) -> None:
+    done = glider("simulate", *CONTROLS, "--duration", "10", "--every", "2.5", "-o", "-")
+    times = [float(row["elapsed_s"]) for row in csv.DictReader(done.stdout.splitlines())]
+    assert times == [0.0, 2.5, 5.0, 7.5, 10.0]
+
+
+def test_floating_at_the_surface_names_start_depth(glider: Run) -> None:
+    one_line_error(glider("simulate", "--net-buoyancy", "-0.3", *CONTROLS[2:]), "--start-depth")
+
+
+def test_climbing_from_depth_ends_at_the_surface(glider_json: Callable[..., Any]) -> None:
+    document = glider_json(
+        "simulate", "--net-buoyancy", "-0.3", "--mass-position", "0.3816", "--mass-rotation", "0",
+        "--start-depth", "50", "--duration", "2000",
+    )  # fmt: skip
+    assert document["events"][-1]["name"] == "surfacing"
+    assert document["final"]["depth_m"] == pytest.approx(0.0, abs=1e-9)  # the crossing is bisected to rounding
+    assert document["duration_s"] < 2000
+
+
+def test_real_cast_and_current(glider_json: Callable[..., Any], tmp_path: Path) -> None:
+    current = table(tmp_path / "c.csv", "depth_m,current_east_m_s,current_north_m_s", "0,0.5,0.1", "900,0.1,0.0")
+    document = glider_json("simulate", *CONTROLS, "--ctd", CNV, "--adcp", current, "--duration", "300", "--quiet")
+    assert {"density_kg_m3", "temperature_degC", "current_east_m_s"} <= set(document["final"])
+
+
+@pytest.mark.parametrize(
+    ("name", "rows", "words"),
+    [
+        ("ctd", ("depth_m,temperature_degC", "0,20", "10,19"), ("salinity",)),
+        ("ctd", ("depth_m,density_kg_m3", "10,1025", "5,1026"), ("line 3", "depth_m")),
+        ("ctd", ("depth_m,density_kg_m3", "10,1025", "10,1026"), ("line 3", "depth_m")),
+        ("adcp", ("depth_m,current_east_m_s", "10,0.1"), ("current_north_m_s",)),
+        ("adcp", ("depth_m,current_east_m_s,current_north_m_s", "9,0,0", "8,0,0"), ("line 3", "depth_m")),
+    ],
+)
+def test_bad_profiles_are_one_line(glider: Run, tmp_path: Path, name: str, rows: tuple[str, ...], words: Any) -> None:
+    bad = table(tmp_path / "bad.csv", *rows)
+    one_line_error(glider("simulate", *CONTROLS, f"--{name}", bad, "-o", "o.csv"), "bad.csv", *words)
+    assert not (tmp_path / "o.csv").exists()
+
+
+@pytest.mark.parametrize("name", ["ctd", "adcp"])
+def test_files_that_are_none(glider: Run, tmp_path: Path, name: str) -> None:
+    (tmp_path / "empty.csv").write_bytes(b"")
+    (tmp_path / "binary.csv").write_bytes(bytes(range(256)) * 20)
+    (tmp_path / "folder").mkdir()
+    for target in ("missing.csv", "empty.csv", "binary.csv", "folder"):
+        one_line_error(glider("simulate", *CONTROLS, f"--{name}", tmp_path / target), target)
+
+
+@pytest.mark.parametrize("option", ["--net-buoyancy", "--mass-position", "--mass-rotation", "--duration", "--every"])
+def test_nan_is_refused(glider: Run, option: str) -> None:
+    one_line_error(glider("simulate", *CONTROLS, option, "nan"), "nan")
+
+
+def test_zero_mass_vehicle(glider: Run, tmp_path: Path) -> None:
+    text = (ROOT / "glidercli/vehicle/data/seawing.toml").read_text()
+    (tmp_path / "zero.toml").write_text(text.replace("static_mass = { value = 54.28", "static_mass = { value = 0"))
+    one_line_error(
+        glider("simulate", *CONTROLS, "--vehicle", "zero.toml"), "zero.toml", "mass.static_mass", "0 kg", "allowed"
+    )
+
+
+def test_outputs_carry_provenance(glider: Run, tmp_path: Path) -> None:
+    done = glider("simulate", *CONTROLS, "--duration", "30", "-o", "a.mcap", "-o", "a.rrd", "-o", "a.csv")
+    assert done.returncode == 0, done.stderr
+    assert all((tmp_path / name).stat().st_size for name in ("a.mcap", "a.rrd", "a.csv"))
+    record = json.loads((tmp_path / "a.csv-metadata.json").read_text())
+    assert "glidercli" in json.dumps(record) and "simulated" in json.dumps(record)
+
+
+def test_shipped_mission_flies_from_any_folder_and_says_what_it_is(glider: Run, tmp_path: Path) -> None:
+    done = glider("simulate", "south-china-sea-2011", "-o", "trial.csv")
+    assert done.returncode == 0, done.stderr
+    assert "RECONSTRUCTION" in done.stdout
+    assert "reconstruct" in (tmp_path / "trial.csv-metadata.json").read_text()
+
+
+def test_unknown_mission_names_the_shipped_ones(glider: Run) -> None:
+    one_line_error(glider("simulate", "atlantis"), "atlantis", "south-china-sea-2011")
+
+
+def test_two_runs_give_the_same_bytes(glider: Run, tmp_path: Path) -> None:
+    for name in ("a.csv", "b.csv"):
+        assert glider("simulate", *CONTROLS, "--duration", "100", "-o", name).returncode == 0
+    assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
