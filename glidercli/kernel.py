@@ -63,7 +63,7 @@ def _numba() -> tuple[Any, bool]:
     from numba.extending import register_jitable
 
     if folder is not None:
-        numba.config.CACHE_DIR = str(folder)
+        setattr(numba.config, "CACHE_DIR", str(folder))  # numba may have been imported before, by others  # noqa: B010
     for function in _marked:
         register_jitable(function)
     return numba, folder is not None

@@ -27,7 +27,9 @@ def simulate(
     rtol: Annotated[float, typer.Option(help="Relative tolerance of the integrator.")] = 1e-8,
     vehicle: Annotated[
         str | None,
-        typer.Option(metavar="NAME|FILE.toml", help="Vehicle [default: the mission's, else seawing].", show_default=False),
+        typer.Option(
+            metavar="NAME|FILE.toml", help="Vehicle [default: the mission's, else seawing].", show_default=False
+        ),
     ] = None,
     equations: EquationsOption = Equations.FULL,
     output: Annotated[list[Path] | None, output_option(".mcap .rrd .csv")] = None,

@@ -191,9 +191,7 @@ def _vehicle_of(plan: Mission | None, beside: Path) -> str:
     return str(beside / plan.vehicle) if plan.vehicle.endswith(".toml") else plan.vehicle
 
 
-def _ocean(
-    kind: type[Ocean], density: float, temperature: float, ctd: Any, adcp: Any, latitude: float | None
-) -> Ocean:
+def _ocean(kind: type[Ocean], density: float, temperature: float, ctd: Any, adcp: Any, latitude: float | None) -> Ocean:
     """The water of a flight: uniform without a cast, else TEOS-10 density from it; and the current."""
     from glidercli.ocean.cast import read_ctd
     from glidercli.ocean.current import read_adcp

@@ -18,7 +18,15 @@ from glidercli.model.buoyancy import hull_excess, pumped_excess
 from glidercli.model.equations import through_water
 from glidercli.model.parameters import Parameters
 from glidercli.simulation.integrator import (
-    REACHED_CEILING, REACHED_END, SIZE, STEP_TOO_SMALL, Sea, controls_at, integrate, state_of, water_at,
+    REACHED_CEILING,
+    REACHED_END,
+    SIZE,
+    STEP_TOO_SMALL,
+    Sea,
+    controls_at,
+    integrate,
+    state_of,
+    water_at,
 )  # fmt: skip
 from glidercli.simulation.schedule import Schedule
 
@@ -65,8 +73,10 @@ class Flight:
 
 
 @kernel
-def observe(times: Array, states: Array, knots: Array, values: Array, sea: Sea, p: Parameters, full: bool, out: Array) -> None:  # noqa: E501
-    """Fill ``out`` (n, len(COLUMNS)) with what the states (n, 14) at the times (n,) mean: velocities, controls, water."""
+def observe(
+    times: Array, states: Array, knots: Array, values: Array, sea: Sea, p: Parameters, full: bool, out: Array
+) -> None:
+    """Fill ``out`` (n, len(COLUMNS)) with what states (n, 14) at times (n,) mean: velocities, controls, water."""
     segment = -1
     for i in range(len(times)):
         while segment < len(knots) - 1 and knots[segment + 1] <= times[i]:
@@ -123,7 +133,9 @@ def fly(
     """
     first = controls_at(legs[0].times, legs[0].values, 0.0, -1 if legs[0].times[0] > 0.0 else 0)
     water = water_at(sea, start_depth)
-    excess = pumped_excess(first.mb, water.density, p) + hull_excess(water.density, water.pressure, water.temperature, p)
+    excess = pumped_excess(first.mb, water.density, p) + hull_excess(
+        water.density, water.pressure, water.temperature, p
+    )
     if start_depth <= SURFACE and excess <= 0.0:
         raise InputError(
             "net buoyancy",
@@ -135,7 +147,7 @@ def fly(
     y = np.zeros(SIZE)
     y[2] = start_depth
     y[3:7] = quaternion_from_euler(0.0, 0.0, heading)
-    grid = np.arange(1, int(math.floor(duration / every * (1.0 + 1e-12))) + 1) * every
+    grid = np.arange(1, math.floor(duration / every * (1.0 + 1e-12)) + 1) * every
     t, step, scales = 0.0, FIRST_STEP, scales_of(p)
     nowhere = (grid[:0], np.empty((0, SIZE)), rtol, scales)
     run_leg(y, 0.0, 0.0, step, legs[0].times, legs[0].values, sea, p, full, math.inf, SURFACE, *nowhere)  # compiles

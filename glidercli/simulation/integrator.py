@@ -103,7 +103,9 @@ def state_of(y: Array) -> State:
 
 
 @kernel
-def slope_into(out: Array, t: float, y: Array, segment: int, times: Array, values: Array, sea: Sea, p: Parameters, full: bool) -> None:  # noqa: E501
+def slope_into(
+    out: Array, t: float, y: Array, segment: int, times: Array, values: Array, sea: Sea, p: Parameters, full: bool
+) -> None:
     """Write the time derivative of the state array y into ``out``."""
     water = water_at(sea, y[2])
     r = rates(state_of(y), controls_at(times, values, t, segment), water, p, full)
@@ -135,7 +137,19 @@ DENSE = np.array([
 
 
 @kernel
-def stages(y: Array, t: float, h: float, k: Array, new: Array, segment: int, times: Array, values: Array, sea: Sea, p: Parameters, full: bool) -> None:  # noqa: E501
+def stages(
+    y: Array,
+    t: float,
+    h: float,
+    k: Array,
+    new: Array,
+    segment: int,
+    times: Array,
+    values: Array,
+    sea: Sea,
+    p: Parameters,
+    full: bool,
+) -> None:
     """One step: k[0] given, k[1..6] and ``new`` filled."""
     for i in range(1, 7):
         for j in range(SIZE):

@@ -1,20 +1,20 @@
-"""What is to be flown? A mission file: its water and current, where and when it starts, and its legs with their controls.
+"""What is to be flown? A mission file: its water and current, where and when it starts, its legs and controls.
 
-    name = "..."                    description = "..."
-    reconstruction = "..."          what is reconstructed and from what; marks every output. Leave out for a plan.
-    vehicle = "seawing"             name, or file beside the mission
-    ctd = "water.csv"               files beside the mission; both may be left out
-    adcp = "current.csv"
-    start_time = 2011-07-20T04:28:00Z
-    latitude = 7.0                  deg; sets gravity. longitude = 130.0 places the track
-    heading_deg = 50.0              of the start; start_depth_m = 0.0
-    neutral_density_kg_m3 = 1022.0  ballasted so that zero net buoyancy is neutral there; default: the vehicle's
-    duration_s = 6120.0             the flight ends here at the latest
+name = "..."                    description = "..."
+reconstruction = "..."          what is reconstructed and from what; marks every output. Leave out for a plan.
+vehicle = "seawing"             name, or file beside the mission
+ctd = "water.csv"               files beside the mission; both may be left out
+adcp = "current.csv"
+start_time = 2011-07-20T04:28:00Z
+latitude = 7.0                  deg; sets gravity. longitude = 130.0 places the track
+heading_deg = 50.0              of the start; start_depth_m = 0.0
+neutral_density_kg_m3 = 1022.0  ballasted so that zero net buoyancy is neutral there; default: the vehicle's
+duration_s = 6120.0             the flight ends here at the latest
 
-    [[leg]]
-    name = "dive"
-    controls = "dive.csv"           elapsed_s (of the leg), mass_position_m, mass_rotation_deg, net_buoyancy_kg
-    until_depth_m = 800.0           optional: the leg ends there, else with its controls or the flight
+[[leg]]
+name = "dive"
+controls = "dive.csv"           elapsed_s (of the leg), mass_position_m, mass_rotation_deg, net_buoyancy_kg
+until_depth_m = 800.0           optional: the leg ends there, else with its controls or the flight
 """
 
 from __future__ import annotations

@@ -54,7 +54,9 @@ def to_log(
     values["speed_through_water"] = speed
     values["angle_of_attack"] = np.arctan2(values["w"], values["u"])
     moving = speed > 0.0
-    values["sideslip"] = np.arcsin(np.clip(np.divide(values["v"], speed, out=np.zeros_like(speed), where=moving), -1, 1))
+    values["sideslip"] = np.arcsin(
+        np.clip(np.divide(values["v"], speed, out=np.zeros_like(speed), where=moving), -1, 1)
+    )
     sinking = values["vertical_speed"] >= 0.0
     values["phase"] = np.where(sinking, PHASES.index("dive"), PHASES.index("climb")).astype(float)
     if stratified:

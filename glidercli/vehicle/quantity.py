@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from pydantic_core import PydanticCustomError, core_schema
 
@@ -53,7 +53,8 @@ class Quantity:
         """The value in SI; refuses a wrong unit, key, shape or range with all that is allowed."""
         to_si = _TO_SI.get(self.unit, 1.0)
         if isinstance(given, dict):
-            value, unit = given.get("value"), given.get("unit")
+            value: Any = given.get("value")
+            unit = given.get("unit")
             unknown = [key for key in given if key not in ("value", "unit", *_NOTES)]
             if unknown:
                 self._refuse(f"has unknown key {', '.join(unknown)}; known are value, unit, {', '.join(_NOTES)}")
@@ -66,7 +67,7 @@ class Quantity:
         else:
             scalar = isinstance(given, (int, float))
             value = given / to_si if scalar else [item / to_si for item in given]
-        numbers = list(value) if isinstance(value, (list, tuple)) else [value]
+        numbers: list[Any] = list(value) if isinstance(value, (list, tuple)) else [value]
         right_kind = all(isinstance(n, (int, float)) and not isinstance(n, bool) and math.isfinite(n) for n in numbers)
         if len(numbers) != self.size or isinstance(value, (list, tuple)) != (self.size > 1) or not right_kind:
             self._refuse(f"= {value!r}, allowed {self.allowed}")
@@ -75,5 +76,5 @@ class Quantity:
         si = tuple(float(n) * to_si for n in numbers)
         return si[0] if self.size == 1 else si
 
-    def _refuse(self, what: str) -> None:
+    def _refuse(self, what: str) -> NoReturn:
         raise PydanticCustomError("quantity", "{what}", {"what": what})

@@ -6,11 +6,10 @@ radians. Ranges are physical bounds for gliders and small vehicles, wide on purp
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Self
 
 from pydantic import ConfigDict, model_validator
 from pydantic.dataclasses import dataclass
-from typing_extensions import Self
 
 from glidercli.vehicle.quantity import Quantity
 

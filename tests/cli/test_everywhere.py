@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import glidercli
 import pytest
 from conftest import Run
+
+import glidercli
 
 COMMANDS = ("trim", "simulate", "replay", "compare")
 

@@ -109,7 +109,8 @@ def test_outputs_carry_provenance(glider: Run, tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert all((tmp_path / name).stat().st_size for name in ("a.mcap", "a.rrd", "a.csv"))
     record = json.loads((tmp_path / "a.csv-metadata.json").read_text())
-    assert "glidercli" in json.dumps(record) and "simulated" in json.dumps(record)
+    assert "glidercli" in json.dumps(record)
+    assert "simulated" in json.dumps(record)
 
 
 def test_shipped_mission_flies_from_any_folder_and_says_what_it_is(glider: Run, tmp_path: Path) -> None:

@@ -28,14 +28,17 @@ def test_json_is_a_list_of_trims_with_every_key(glider_json: Callable[..., Any])
 def test_starboard_turn_is_positive_and_port_negative(glider_json: Callable[..., Any]) -> None:
     starboard = glider_json("trim", *PINS)["trims"][0]
     port = glider_json("trim", *PINS[:-1], "-45")["trims"][0]
-    assert starboard["turning_radius_m"] > 0 and starboard["yaw_rate_deg_s"] > 0
-    assert port["turning_radius_m"] < 0 and port["yaw_rate_deg_s"] < 0
+    assert starboard["turning_radius_m"] > 0
+    assert starboard["yaw_rate_deg_s"] > 0
+    assert port["turning_radius_m"] < 0
+    assert port["yaw_rate_deg_s"] < 0
 
 
 def test_a_straight_glide_has_null_radius(glider_json: Callable[..., Any]) -> None:
     straight = glider_json("trim", *PINS[:-1], "0")["trims"][0]
     assert straight["turning_radius_m"] is None
-    assert straight["yaw_rate_rad_s"] == 0.0 and straight["roll_deg"] == 0.0
+    assert straight["yaw_rate_rad_s"] == 0.0
+    assert straight["roll_deg"] == 0.0
 
 
 def test_within_limits_is_said(glider_json: Callable[..., Any]) -> None:

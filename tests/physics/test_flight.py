@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-import glidercli
 import numpy as np
 import pytest
 from conftest import WORKED_EXAMPLE
 
+import glidercli
 from glidercli.frames import dot, rotation_ned_body
 from glidercli.model import Parameters
 from glidercli.model.equations import State, rates
@@ -87,7 +87,9 @@ def test_with_paper_equations_any_horizontal_profile_changes_only_the_track(p: P
 def test_shear_against_absolute_motion(p: Parameters) -> None:
     """Without water forces and added mass a sheared current cannot move the body: its absolute motion is free fall."""
     zero = (0.0, 0.0, 0.0)
-    none = {name: 0.0 for name in ("Nv", "Mw", "KD0", "KD", "Kbeta", "KL0", "Kalpha", "KMR", "Kp", "KM0", "KM", "Kq", "KMY", "Kr")}  # noqa: E501
+    none = dict.fromkeys(
+        ("Nv", "Mw", "KD0", "KD", "Kbeta", "KL0", "Kalpha", "KMR", "Kp", "KM0", "KM", "Kq", "KMY", "Kr"), 0.0
+    )
     bare = p._replace(MA=zero, IA=zero, **none)
     depth = list(np.linspace(0.0, 400.0, 41))
     sheared = sea(depth, [0.01 * (z - 50.0) for z in depth], [0.004 * (z - 50.0) for z in depth])  # still at 50 m
@@ -131,14 +133,17 @@ def test_plain_and_compiled_are_one_source(p: Parameters) -> None:
 def test_tolerance_bounds_the_error(p: Parameters) -> None:
     best = fly(SPIRAL, STILL, p, duration=1500.0, rtol=1e-12)
     errors = [difference(fly(SPIRAL, STILL, p, duration=1500.0, rtol=r), best, "north", "east") for r in (1e-6, 1e-8)]
-    assert errors[0] < 1e-4 and errors[1] < 1e-6  # m; a hundredfold of rtol times the track's 600 m at worst
+    assert errors[0] < 1e-4
+    assert errors[1] < 1e-6
     assert errors[1] < errors[0]
 
 
 def test_moving_mass_keeps_momentum_of_the_whole(p: Parameters) -> None:
     """Adrift without weight, water or drag, sliding the mass moves the hull so that the centre of mass stays."""
     zero = (0.0, 0.0, 0.0)
-    none = {name: 0.0 for name in ("Nv", "Mw", "KD0", "KD", "Kbeta", "KL0", "Kalpha", "KMR", "Kp", "KM0", "KM", "Kq", "KMY", "Kr")}  # noqa: E501
+    none = dict.fromkeys(
+        ("Nv", "Mw", "KD0", "KD", "Kbeta", "KL0", "Kalpha", "KMR", "Kp", "KM0", "KM", "Kq", "KMY", "Kr"), 0.0
+    )
     bare = p._replace(MA=zero, IA=zero, **none)
     weightless = STILL._replace(gravity=0.0)
     slide = [Schedule("slide", np.array([0.0, 40.0]), np.array([[0.36, 0.0, 1e-9], [0.44, 0.0, 1e-9]]))]
@@ -149,7 +154,9 @@ def test_moving_mass_keeps_momentum_of_the_whole(p: Parameters) -> None:
         R = rotation_ned_body(tuple(float(item[i]) for item in q))
         c = Controls(float(flight.column("mass_position")[i]), 0.0, 0.0)
         s = first_moment(c, bare)
-        centre = [float(flight.column(n)[i]) + dot(R[j], s) / (p.ms + p.mr) for j, n in enumerate(("north", "east", "down"))]
+        centre = [
+            float(flight.column(n)[i]) + dot(R[j], s) / (p.ms + p.mr) for j, n in enumerate(("north", "east", "down"))
+        ]
         if i == 0:
             start = centre
         np.testing.assert_allclose(centre, start, atol=1e-8)  # m; 4e-8 would be a thousandth of the pump's share

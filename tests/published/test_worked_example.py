@@ -5,9 +5,10 @@ from __future__ import annotations
 import itertools
 import math
 
-import glidercli
 import pytest
 from conftest import WORKED_EXAMPLE
+
+import glidercli
 
 PRINTED = {
     "speed_m_s": 0.490,

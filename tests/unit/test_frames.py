@@ -10,8 +10,13 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from glidercli.frames import (
-    down_in_body, euler_from_quaternion_arrays, quaternion_from_euler, quaternion_from_euler_arrays, quaternion_rate,
-    rotation_ned_body, wrapped,
+    down_in_body,
+    euler_from_quaternion_arrays,
+    quaternion_from_euler,
+    quaternion_from_euler_arrays,
+    quaternion_rate,
+    rotation_ned_body,
+    wrapped,
 )  # fmt: skip
 
 roll = st.floats(-3.1, 3.1)
@@ -40,7 +45,9 @@ def test_pitch_through_ninety_degrees_keeps_the_rotation() -> None:
         q = np.array([quaternion_from_euler(0.4, theta, 1.1)])
         phi, pitch_back, psi = (float(a[0]) for a in euler_from_quaternion_arrays(q))
         again = quaternion_from_euler(phi, pitch_back, psi)
-        np.testing.assert_allclose(rotation_ned_body(again), rotation_ned_body(tuple(q[0])), atol=1e-7)  # sqrt of rounding
+        np.testing.assert_allclose(
+            rotation_ned_body(again), rotation_ned_body(tuple(q[0])), atol=1e-7
+        )  # sqrt of rounding
 
 
 def test_quaternion_rate_is_eq_3() -> None:

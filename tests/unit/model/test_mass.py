@@ -29,14 +29,18 @@ def matrix(c: Controls, p: Parameters) -> NDArray[np.float64]:
     Mt = (p.ms + p.mr) * np.eye(3) + np.diag(p.MA)
     CA = np.array([[0, 0, 0], [0, 0, p.Nv], [0, p.Mw, 0]])
     Ct = CA - p.ms * hat(rs) - p.mr * hat(rr)
-    It = np.diag(p.Is) + Rx.T @ np.diag(p.Ir0) @ Rx + np.diag(p.IA) - p.mr * hat(rr) @ hat(rr) - p.ms * hat(rs) @ hat(rs)
+    It = (
+        np.diag(p.Is) + Rx.T @ np.diag(p.Ir0) @ Rx + np.diag(p.IA) - p.mr * hat(rr) @ hat(rr) - p.ms * hat(rs) @ hat(rs)
+    )
     return np.block([[Mt, Ct], [Ct.T, It]])
 
 
 @given(controls, vectors, vectors)
 def test_momentum_is_the_matrix_times_velocity(c: Controls, V: tuple[float, ...], Omega: tuple[float, ...]) -> None:
     expected = matrix(c, P) @ np.array([*V, *Omega])
-    np.testing.assert_allclose(np.hstack(momentum(V, Omega, c, 1.0, P)), expected, atol=1e-12)  # rounding of sums of 100
+    np.testing.assert_allclose(
+        np.hstack(momentum(V, Omega, c, 1.0, P)), expected, atol=1e-12
+    )  # rounding of sums of 100
 
 
 @given(controls, vectors, vectors, st.floats(0.9, 1.1))
