@@ -55,7 +55,8 @@ def test_every_number_has_unit_and_source_and_restored_signs_a_reason() -> None:
     walk(tables, "")
     assert len(entries) >= 30
     for path, entry in entries:
-        assert entry["unit"] and entry["source"], path
+        assert entry["unit"], path
+        assert entry["source"], path
     reasons = {path for path, entry in entries if "restored" in entry}
     for name in ("side_sideslip", "lift_zero", "roll_sideslip", "roll_rate", "pitch_attack", "pitch_rate", "yaw_rate"):
         assert f".hydrodynamics.{name}" in reasons
