@@ -11,7 +11,7 @@ from typing import Any
 _FUNCTIONS = {"simulate": "glidercli.simulation", "replay": "glidercli.logio"}
 _ROOMS = ("trim", "compare")  # rooms of the same name as their function; calling the room calls the function
 
-__all__ = ["compare", "replay", "simulate", "trim"]  # noqa: F822
+__all__ = ["compare", "replay", "simulate", "trim"]
 
 
 def __getattr__(name: str) -> Any:

@@ -12,32 +12,25 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from glidercli.frames import (
-    Quaternion, Vector, add, cross, dot, quaternion_rate, rotation_ned_body, scale, times, transposed,
+    Quaternion,
+    Vector,
+    add,
+    cross,
+    dot,
+    quaternion_rate,
+    rotation_ned_body,
+    scale,
+    times,
+    transposed,
 )  # fmt: skip
 from glidercli.kernel import kernel
 from glidercli.model.buoyancy import displaced_mass, hull_excess, pumped_excess
 from glidercli.model.hydrodynamics import forces_and_moments
 from glidercli.model.mass import first_moment, momentum, movable_momentum, velocity
 from glidercli.model.parameters import Controls, Parameters
+from glidercli.ocean.water import Water
 
-__all__ = ["Rates", "State", "Water", "equilibrium", "rates", "through_water", "wrench"]
-
-
-class Water(NamedTuple):
-    """The water where the vehicle is."""
-
-    density: float
-    """kg/m3, in situ."""
-    pressure: float
-    """Pa, sea pressure."""
-    temperature: float
-    """degC; the vehicle's T_0 where it is unknown."""
-    current: Vector
-    """m/s, NED."""
-    shear: Vector
-    """d(current)/dz, 1/s, NED."""
-    gravity: float
-    """m/s2."""
+__all__ = ["Rates", "State", "equilibrium", "rates", "through_water", "wrench"]
 
 
 class State(NamedTuple):

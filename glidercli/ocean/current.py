@@ -83,5 +83,5 @@ def read_adcp(path: str | Path) -> CurrentProfile:
         reasons = ", ".join(f"{count} {reason}" for reason, count in dropped)
         raise InputError(path, f"has no usable bin among {len(table)}: {reasons}; at least one is needed")
     unknown = table.unknown((_EAST, _NORTH, _UP))
-    warnings = (f"{path}: columns not known and not used: {listed(unknown)}",) if unknown else ()
+    warnings = (f"columns not known and not used: {listed(unknown)}",) if unknown else ()
     return CurrentProfile(depth[good], east[good], north[good], up[good], path, dropped, warnings)

@@ -1,76 +1,30 @@
-"""What does a vehicle meet at a depth? Water and current as profiles, ready for the compiled integrator."""
+"""How do a cast and a current profile become an ocean? Checked, joined, ready for the compiled integrator."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from glidercli.errors import InputError
-from glidercli.frames import Vector
-from glidercli.kernel import kernel
 from glidercli.ocean import seawater
 from glidercli.ocean.cast import Cast
 from glidercli.ocean.current import CurrentProfile
-from glidercli.ocean.profile import Profile, cubic, cubic_slope, locate, pchip
-from glidercli.units import STANDARD_GRAVITY
+from glidercli.ocean.profile import Profile, pchip
+from glidercli.ocean.water import Sea, Water, at_depth
+from glidercli.units import DBAR, STANDARD_GRAVITY
 
-__all__ = ["Ocean", "Water", "at_depth"]
-
-DENSITY, PRESSURE, TEMPERATURE = 0, 1, 2
-"""Columns of the water profile: kg/m3 in situ, dbar, degC."""
-NORTH, EAST, DOWN = 0, 1, 2
-"""Columns of the current profile, m/s."""
-
-
-class Water(NamedTuple):
-    """The water at one depth."""
-
-    density: float
-    """kg/m3, in situ."""
-    pressure_dbar: float
-    """Sea pressure; zero in uniform water, where nothing depends on depth."""
-    temperature: float
-    """degC, in situ; the ocean's reference temperature where none was measured."""
-    current_ned: Vector
-    """m/s over ground."""
-    current_shear_ned: Vector
-    """Derivative of the current by depth, 1/s."""
-
-
-@kernel
-def at_depth(water: Profile, current: Profile, z: float) -> Water:
-    """The water at depth z, m, positive down: monotone cubic between samples, end values held beyond them.
-
-    water : columns density, pressure, temperature. current : columns north, east, down.
-    """
-    i, x, _ = locate(water, z)
-    j, y, beyond = locate(current, z)
-    shear = (0.0, 0.0, 0.0)
-    if not beyond:
-        shear = (
-            cubic_slope(current, j, y, NORTH),
-            cubic_slope(current, j, y, EAST),
-            cubic_slope(current, j, y, DOWN),
-        )
-    return Water(
-        cubic(water, i, x, DENSITY),
-        cubic(water, i, x, PRESSURE),
-        cubic(water, i, x, TEMPERATURE),
-        (cubic(current, j, y, NORTH), cubic(current, j, y, EAST), cubic(current, j, y, DOWN)),
-        shear,
-    )
+__all__ = ["Ocean"]
 
 
 @dataclass(frozen=True)
 class Ocean:
     """Water and current by depth, and gravity; neither varies with time or place.
 
-    water : profile with the columns density (kg/m3), pressure (dbar), temperature (degC).
+    water : profile with the columns density (kg/m3), pressure (Pa), temperature (degC).
     current : profile with the columns north, east, down (m/s).
     gravity : m/s2.
     stratified : whether the water comes from a cast; else it is uniform and has no pressure.
@@ -131,7 +85,7 @@ class Ocean:
         if cast is not None:
             unknown = np.full(len(cast.depth), temperature_reference)
             temperature = unknown if cast.temperature is None else cast.temperature
-            water = pchip(cast.depth, np.stack([cast.density, cast.pressure_dbar, temperature], axis=1))
+            water = pchip(cast.depth, np.stack([cast.density, cast.pressure_dbar * DBAR, temperature], axis=1))
         if current is not None:
             flow = pchip(current.depth, np.stack([current.north, current.east, -current.up], axis=1))
         given = [item for item in (cast, current) if item is not None]
@@ -146,9 +100,14 @@ class Ocean:
             inputs=tuple(item.source for item in given),
         )
 
+    @property
+    def sea(self) -> Sea:
+        """The same in the form that kernels read."""
+        return Sea(self.water, self.current, self.gravity)
+
     def at(self, depth: float) -> Water:
         """The water at one depth, m."""
-        return at_depth(self.water, self.current, depth)
+        return at_depth(self.sea, depth)
 
     def beyond(self, depth: ArrayLike) -> list[str]:
         """Warnings where depths flown, m, leave the cast or the current profile, whose end values are held there."""

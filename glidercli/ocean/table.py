@@ -20,7 +20,7 @@ __all__ = ["Table", "parse_table"]
 
 Array = NDArray[np.float64]
 
-_CLOCKS = ("time_utc", "elapsed_s")  # columns of any table that hold no channel
+_ASIDE = ("time_utc", "elapsed_s", "origin")  # columns of any table that hold no channel
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ class Table:
 
     def unknown(self, used: tuple[str, ...]) -> tuple[str, ...]:
         """Columns that are neither used nor any channel's name, most likely misspelt."""
-        return tuple(n for n in self.columns if n not in (*used, *_CLOCKS) and by_column(n) is None)
+        return tuple(n for n in self.columns if n not in (*used, *_ASIDE) and by_column(n) is None)
 
 
 def parse_table(path: Path, text: str, expected: str) -> Table:

@@ -100,7 +100,6 @@ def simulate(
     from glidercli.model.parameters import parameters
     from glidercli.ocean.ocean import Ocean
     from glidercli.simulation.flight import fly
-    from glidercli.simulation.integrator import Sea
     from glidercli.simulation.mission import load_mission
     from glidercli.simulation.to_log import to_log
     from glidercli.vehicle import load_vehicle
@@ -135,7 +134,7 @@ def simulate(
         raise InputError("start depth", f"{depth} m is not allowed; a finite depth of at least 0 m is needed")
     flight = fly(
         legs,
-        Sea(ocean.water, ocean.current, ocean.gravity),
+        ocean.sea,
         p,
         duration=length,
         start_depth=depth,

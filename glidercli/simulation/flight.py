@@ -17,17 +17,16 @@ from glidercli.kernel import compiled, kernel
 from glidercli.model.buoyancy import hull_excess, pumped_excess
 from glidercli.model.equations import through_water
 from glidercli.model.parameters import Parameters
+from glidercli.ocean.water import Sea, at_depth
 from glidercli.simulation.integrator import (
     REACHED_CEILING,
     REACHED_END,
     SIZE,
     STEP_TOO_SMALL,
-    Sea,
     controls_at,
     integrate,
     state_of,
-    water_at,
-)  # fmt: skip
+)
 from glidercli.simulation.schedule import Schedule
 
 __all__ = ["Flight", "FlightEvent", "fly"]
@@ -83,7 +82,7 @@ def observe(
             segment += 1
         y = states[i]
         c = controls_at(knots, values, times[i], segment)
-        water = water_at(sea, y[2])
+        water = at_depth(sea, y[2])
         s = state_of(y)
         V, Omega = through_water(s, c, water, p, full)
         out[i, 0], out[i, 1], out[i, 2] = s.position
@@ -131,8 +130,9 @@ def fly(
     NoSolutionError
         The step size fell below its limit: the motion cannot be integrated.
     """
+    duration, start_depth, rtol = float(duration), float(start_depth), float(rtol)  # one signature, compiled once
     first = controls_at(legs[0].times, legs[0].values, 0.0, -1 if legs[0].times[0] > 0.0 else 0)
-    water = water_at(sea, start_depth)
+    water = at_depth(sea, start_depth)
     excess = pumped_excess(first.mb, water.density, p) + hull_excess(
         water.density, water.pressure, water.temperature, p
     )

@@ -18,13 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.kernel import kernel
-from glidercli.model.equations import State, Water, rates
+from glidercli.model.equations import State, rates
 from glidercli.model.parameters import Controls, Parameters
-from glidercli.ocean.ocean import at_depth
-from glidercli.ocean.profile import Profile
-from glidercli.units import DBAR
+from glidercli.ocean.water import Sea, at_depth
 
-__all__ = ["Run", "Sea", "controls_at", "integrate", "state_of", "water_at"]
+__all__ = ["Run", "controls_at", "integrate", "state_of"]
 
 Array = NDArray[np.float64]
 
@@ -33,14 +31,6 @@ REACHED_END, REACHED_FLOOR, REACHED_CEILING, STEP_TOO_SMALL = 0, 1, 2, 3
 
 _SMALLEST_STEP = 1e-9  # s
 _LARGEST_STEP = 30.0  # s: a tenth of the shortest leg that anybody flies
-
-
-class Sea(NamedTuple):
-    """The ocean in the form that the kernels read."""
-
-    water: Profile
-    current: Profile
-    gravity: float
 
 
 class Run(NamedTuple):
@@ -56,15 +46,6 @@ class Run(NamedTuple):
     rows: int
     step: float
     evaluations: int
-
-
-@kernel
-def water_at(sea: Sea, depth: float) -> Water:
-    """The water at a depth, m, as the model wants it."""
-    here = at_depth(sea.water, sea.current, depth)
-    return Water(
-        here.density, here.pressure_dbar * DBAR, here.temperature, here.current_ned, here.current_shear_ned, sea.gravity
-    )
 
 
 @kernel
@@ -107,7 +88,7 @@ def slope_into(
     out: Array, t: float, y: Array, segment: int, times: Array, values: Array, sea: Sea, p: Parameters, full: bool
 ) -> None:
     """Write the time derivative of the state array y into ``out``."""
-    water = water_at(sea, y[2])
+    water = at_depth(sea, y[2])
     r = rates(state_of(y), controls_at(times, values, t, segment), water, p, full)
     out[0], out[1], out[2] = r.position
     out[3], out[4], out[5], out[6] = r.q_wxyz
@@ -253,6 +234,7 @@ def integrate(
         if status != REACHED_END:
             dense(work, y, new, h, k, share)
             y[:] = work
+            y[2] = floor if status == REACHED_FLOOR else ceiling
             t = t_new
             break
         t = t_new

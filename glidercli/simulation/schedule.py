@@ -31,6 +31,11 @@ class Schedule:
     values: NDArray[np.float64]
     until_depth: float = math.nan
 
+    def __post_init__(self) -> None:
+        """Own, writable arrays: the compiled integrator then has one signature."""
+        object.__setattr__(self, "times", np.array(self.times, dtype=np.float64, order="C"))
+        object.__setattr__(self, "values", np.array(self.values, dtype=np.float64, order="C"))
+
 
 def held(mass_position: float, mass_rotation: float, net_buoyancy: float) -> Schedule:
     """Three controls held for the whole flight (SI, rad); raises InputError where one is not finite."""

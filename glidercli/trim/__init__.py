@@ -41,8 +41,8 @@ def trim(
     NoSolutionError
         There is no such flight, or none was found: the message says what fails.
     """
-    from glidercli.model.equations import Water
     from glidercli.model.parameters import Controls, parameters, without_coupling
+    from glidercli.ocean.water import Water
     from glidercli.trim.result import lift_to_drag, speeds
     from glidercli.trim.root import solve_forward
     from glidercli.units import STANDARD_GRAVITY

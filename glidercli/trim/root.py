@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from glidercli.errors import NoSolutionError
 from glidercli.frames import down_in_body
-from glidercli.model.equations import Water, equilibrium
+from glidercli.model.equations import equilibrium
 from glidercli.model.hydrodynamics import velocity_from_flow
 from glidercli.model.parameters import Controls, Parameters
+from glidercli.ocean.water import Water
 from glidercli.trim.straight import first_guess
 
 __all__ = ["Solution", "residuals", "solve_forward"]

@@ -15,10 +15,9 @@ from glidercli.model import Parameters
 from glidercli.model.equations import State, rates
 from glidercli.model.mass import first_moment, momentum
 from glidercli.model.parameters import Controls
+from glidercli.ocean import Ocean, Sea, at_depth
 from glidercli.ocean.current import CurrentProfile
-from glidercli.ocean.ocean import Ocean
 from glidercli.simulation.flight import Flight, fly
-from glidercli.simulation.integrator import Sea, water_at
 from glidercli.simulation.schedule import Schedule, held
 
 
@@ -30,7 +29,7 @@ def sea(depth: list[float] | None = None, east: list[float] | None = None, north
             np.array(depth), np.array(east), np.array(north), zeros, Path("test"), dropped=(), warnings=()
         )
     ocean = Ocean.build(1025.0, current=current, temperature_reference=15.0)
-    return Sea(ocean.water, ocean.current, ocean.gravity)
+    return ocean.sea
 
 
 STILL = sea()
@@ -63,7 +62,7 @@ def test_a_trim_makes_the_right_hand_side_vanish(p: Parameters, full: bool) -> N
     Omega = scale(t.yaw_rate, down_in_body(t.roll, t.pitch))
     P, Pi = momentum(V, Omega, c, 1.0, p)
     state = State((0.0, 0.0, 10.0), quaternion_from_euler(t.roll, t.pitch, 1.0), P, Pi)
-    r = rates(state, c, water_at(STILL, 10.0), p, full)
+    r = rates(state, c, at_depth(STILL, 10.0), p, full)
     assert max(map(abs, (*r.P, *r.Pi))) < 1e-9  # the solver stops at 1e-10 N or N m
 
 

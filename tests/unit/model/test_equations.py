@@ -9,9 +9,10 @@ from test_mass import P, controls, hat, matrix, vectors
 
 from glidercli.frames import quaternion_from_euler, rotation_ned_body
 from glidercli.model import Controls
-from glidercli.model.equations import State, Water, rates, through_water
+from glidercli.model.equations import State, rates, through_water
 from glidercli.model.hydrodynamics import flow_angles, forces_and_moments, velocity_from_flow
 from glidercli.model.mass import momentum, movable_position
+from glidercli.ocean import Water
 
 STILL = Water(1025.0, 0.0, 15.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 9.81)
 moving = st.builds(

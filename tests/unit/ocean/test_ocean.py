@@ -22,8 +22,8 @@ def test_uniform_water_is_the_same_everywhere():
     assert (ocean.gravity, ocean.stratified, ocean.has_temperature) == (9.81, False, False)
     for z in (0.0, 500.0):
         water = ocean.at(z)
-        assert (water.density, water.pressure_dbar) == (1025.0, 0.0)
-        assert water.current_ned == water.current_shear_ned == (0.0, 0.0, 0.0)
+        assert (water.density, water.pressure) == (1025.0, 0.0)
+        assert water.current == water.shear == (0.0, 0.0, 0.0)
         assert math.isnan(water.temperature)
     assert Ocean.uniform(1025.0, temperature_reference=15.0).at(3.0).temperature == 15.0
     assert ocean.beyond([0.0, 6000.0]) == []
@@ -46,22 +46,22 @@ def test_the_cast_comes_back_at_its_own_depths(ctd):
     for i in (0, 17, 100, 198):
         water = ocean.at(cast.depth[i])
         assert water.density == pytest.approx(cast.density[i], abs=1e-9)  # cubic terms cancel at the last knot
-        assert water.pressure_dbar == pytest.approx(cast.pressure_dbar[i], abs=1e-9)
+        assert water.pressure == pytest.approx(1e4 * cast.pressure_dbar[i], abs=1e-5)
         assert water.temperature == pytest.approx(cast.temperature[i], abs=1e-9)
 
 
 def test_current_becomes_north_east_down(sheared):
     water = Ocean.build(1025.0, current=sheared).at(15.0)
-    assert water.current_ned == pytest.approx((0.4, 0.15, -0.015), abs=ROUND_OFF)
-    assert water.current_shear_ned == pytest.approx((-0.02, 0.01, -0.001), abs=ROUND_OFF)
+    assert water.current == pytest.approx((0.4, 0.15, -0.015), abs=ROUND_OFF)
+    assert water.shear == pytest.approx((-0.02, 0.01, -0.001), abs=ROUND_OFF)
     assert water.density == 1025.0
 
 
 def test_beyond_the_current_profile_it_is_held(sheared):
     ocean = Ocean.build(1025.0, current=sheared)
-    assert ocean.at(0.0).current_ned == pytest.approx((0.5, 0.1, -0.01), abs=ROUND_OFF)
-    assert ocean.at(99.0).current_ned == pytest.approx((0.1, 0.3, -0.03), abs=ROUND_OFF)
-    assert ocean.at(99.0).current_shear_ned == (0.0, 0.0, 0.0)
+    assert ocean.at(0.0).current == pytest.approx((0.5, 0.1, -0.01), abs=ROUND_OFF)
+    assert ocean.at(99.0).current == pytest.approx((0.1, 0.3, -0.03), abs=ROUND_OFF)
+    assert ocean.at(99.0).shear == (0.0, 0.0, 0.0)
 
 
 def test_a_flight_beyond_the_profiles_is_said_with_its_range(ctd, sheared):
@@ -91,10 +91,10 @@ def test_compiled_and_plain_agree(ctd, sheared):
     ocean = Ocean.build(1025.0, read_ctd(ctd / "CTD_with_sigma_e00.cnv"), sheared)
     fast = compiled(at_depth)
     for z in (0.0, 10.0, 15.3, 199.0, 500.0):
-        plain, quick = ocean.at(z), fast(ocean.water, ocean.current, z)
+        plain, quick = ocean.at(z), fast(ocean.sea, z)
         assert quick[:3] == pytest.approx(plain[:3], rel=ROUND_OFF)
-        assert quick.current_ned == pytest.approx(plain.current_ned, abs=ROUND_OFF)
-        assert quick.current_shear_ned == pytest.approx(plain.current_shear_ned, abs=ROUND_OFF)
+        assert quick.current == pytest.approx(plain.current, abs=ROUND_OFF)
+        assert quick.shear == pytest.approx(plain.shear, abs=ROUND_OFF)
 
 
 @pytest.mark.parametrize("density", [0.0, -1.0, math.nan])
