@@ -1,0 +1,39 @@
+"""What was read of a file, and what was dropped? One report per file; records = kept + dropped."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+__all__ = ["FileReport"]
+
+
+@dataclasses.dataclass(frozen=True)
+class FileReport:
+    """The account of one file.
+
+    format : name of the format, or None where it was not recognised. records : entries of the file (lines, rows or
+    messages). kept : those that gave at least one sample. dropped : the others, as (reason, count). warnings : single
+    cells left out, and other remarks. error : why nothing could be read, or None.
+    """
+
+    path: Path
+    format: str | None
+    records: int
+    kept: int
+    dropped: tuple[tuple[str, int], ...] = ()
+    warnings: tuple[str, ...] = ()
+    error: str | None = None
+
+    def document(self) -> dict[str, Any]:
+        """The contract's JSON entry."""
+        entry: dict[str, Any] = {
+            "path": str(self.path),
+            "format": self.format,
+            "records": self.records,
+            "kept": self.kept,
+            "dropped": [{"reason": reason, "count": count} for reason, count in self.dropped],
+            "warnings": list(self.warnings),
+        }
+        return entry if self.error is None else {**entry, "error": self.error}
