@@ -49,10 +49,14 @@ def with_track(log: Log) -> Log:
     east = np.concatenate([[0.0], np.cumsum(speed * np.sin(middle) * steps)])
     notes = [
         "dead reckoned, not measured: horizontal speed = |depth rate| / tan|pitch| along the heading, angle of attack "
-        f"left out, held at zero for {float(steps[~gliding & ~gap].sum()):.0f} s of pitch below 5 deg or depth rate below 0.02 m/s"
+        f"left out, held at zero for {float(steps[~gliding & ~gap].sum()):.0f} s of pitch below 5 deg or depth rate "
+        "below 0.02 m/s"
     ]
     if gap.any():
-        notes.append(f"{int(gap.sum())} gaps longer than {LONGEST_GAP:.0f} s, {float(steps[gap].sum()):.0f} s in all, bridged by the closure alone")
+        notes.append(
+            f"{int(gap.sum())} gaps longer than {LONGEST_GAP:.0f} s, {float(steps[gap].sum()):.0f} s in all, bridged by "
+            "the closure alone"
+        )
     told = {}
     if {"latitude", "longitude"} <= log.channels.keys():
         north, east, told = _closed(log, times, north, east, notes)
@@ -82,7 +86,8 @@ def _closed(
         v_north, v_east = ((m[i + 1] - m[i]) / span for m in (miss_north, miss_east))
         notes.append(
             f"closure over {span:.0f} s from {np.datetime64(int(fixed[i]), 'ns').astype('datetime64[s]')}Z: "
-            f"{math.hypot(v_north, v_east) * span:.0f} m, a depth-averaged current of {v_east:.3f} m/s east, {v_north:.3f} m/s north"
+            f"{math.hypot(v_north, v_east) * span:.0f} m, a depth-averaged current of {v_east:.3f} m/s east, "
+            f"{v_north:.3f} m/s north"
         )
     told = {"origin_latitude_deg": repr(float(lat[0])), "origin_longitude_deg": repr(float(lon[0]))}
     return north + np.interp(times, fixed, miss_north), east + np.interp(times, fixed, miss_east), told

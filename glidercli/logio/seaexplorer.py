@@ -180,7 +180,9 @@ def _channels(time_ns: NDArray[np.int64], table: dict[str, Array]) -> tuple[list
         given = np.isfinite(values)
         inside = given & (values >= column.low) & (values <= column.high)
         if (given & ~inside).any():
-            warnings.append(f"{name}: {int((given & ~inside).sum())} values outside {column.low:g}..{column.high:g} left out")
+            warnings.append(
+                f"{name}: {int((given & ~inside).sum())} values outside {column.low:g}..{column.high:g} left out"
+            )
         if inside.any():
             channels.append(Channel(column.channel, time_ns[inside], values[inside] * column.factor))
     if "NavState" in table:
@@ -208,7 +210,10 @@ def _navigation(time_ns: NDArray[np.int64], table: dict[str, Array], warnings: l
         if repeated:
             warnings.append(f"Lat, Lon: {repeated} repeats of an earlier fix left out, {int(fix.sum())} fixes kept")
         if fix.any():
-            found += [Channel("latitude", time_ns[fix], latitude[fix]), Channel("longitude", time_ns[fix], longitude[fix])]
+            found += [
+                Channel("latitude", time_ns[fix], latitude[fix]),
+                Channel("longitude", time_ns[fix], longitude[fix]),
+            ]
     return found
 
 
@@ -226,7 +231,10 @@ def _submerged(channels: list[Channel], pressure: Channel, warnings: list[str]) 
         if channel.name == "conductivity":
             under = np.isin(channel.time_ns, wet)
             if not under.all():
-                warnings.append(f"conductivity: {int((~under).sum())} values at less than {SUBMERGED:g} dbar left out: the cell may be in air")
+                warnings.append(
+                    f"conductivity: {int((~under).sum())} values at less than {SUBMERGED:g} dbar left out: "
+                    "the cell may be in air"
+                )
             channel = Channel("conductivity", channel.time_ns[under], channel.values[under])
         if len(channel):
             kept.append(channel)

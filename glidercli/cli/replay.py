@@ -1,0 +1,66 @@
+"""``glider replay``: recorded logs, every record accounted for, into MCAP, Rerun and CSV."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from glidercli.cli.options import Debug, Force, Json, Quiet, output_option
+
+
+def replay(
+    log: Annotated[
+        list[str], typer.Argument(metavar="LOG...", help="Files, folders or quoted globs.", show_default=False)
+    ],
+    format: Annotated[str | None, typer.Option(metavar="NAME", help="Read every file as this format.")] = None,
+    start: Annotated[str | None, typer.Option(metavar="T", help="From: ISO 8601 UTC, or s since the start.")] = None,
+    end: Annotated[str | None, typer.Option(metavar="T", help="To, not included: ISO 8601 UTC, or s.")] = None,
+    strict: Annotated[bool, typer.Option("--strict", help="A file that cannot be read is a failure.")] = False,
+    output: Annotated[list[Path] | None, output_option(".mcap .rrd .csv")] = None,
+    force: Force = False,
+    json: Json = False,
+    quiet: Quiet = False,
+    debug: Debug = False,
+) -> None:
+    """Recorded field logs: what they hold, and into MCAP, Rerun and CSV."""
+    from glidercli.cli.outputs import check_log_outputs, write_log
+    from glidercli.cli.printing import json_text, say, warn
+    from glidercli.errors import InputError
+    from glidercli.logio import replay as play
+
+    outputs = output or []
+    check_log_outputs(outputs, force, json)
+    stdout = Path("-") in outputs
+    if strict:
+        checked = play(log, format=format)
+        if checked.broken:
+            raise InputError(checked.broken[0].path, f"{checked.broken[0].error} (--strict)")
+    files = [path for path in outputs if path != Path("-")]
+    played = play(log, files, format=format, start=start, end=end, force=force)
+    warn((f"{report.path}: {report.error}" for report in played.broken), quiet)
+    if stdout:
+        write_log(played.log, [Path("-")], force, quiet)
+    for path in files:
+        say(f"wrote {path}", quiet)
+    if json:
+        print(json_text(played.document()))
+    elif not stdout:
+        print(_summary(played.document(), played.log.origin))
+
+
+def _summary(d: dict[str, Any], origin: str) -> str:
+    """Files and channels for people."""
+    lines = [origin.upper(), f"{'file':<34} {'format':<12} {'records':>8} {'kept':>8}  dropped"]
+    for f in d["files"]:
+        gone = ", ".join(f"{item['count']} {item['reason']}" for item in f["dropped"]) or "none"
+        lines.append(
+            f"{Path(f['path']).name:<34} {f['format'] or '-':<12} {f['records']:>8} {f['kept']:>8}  {f.get('error', gone)}"
+        )
+        lines += [f"    {warning}" for warning in f["warnings"]]
+    lines.append(f"{'channel':<30} {'samples':>8} {'minimum':>12} {'maximum':>12}  origin")
+    for c in d["channels"]:
+        low, high = (v if isinstance(v, str) else f"{v:.6g}" for v in (c["minimum"], c["maximum"]))
+        lines.append(f"{c['name']:<30} {c['samples']:>8} {low:>12} {high:>12}  {c['origin']}")
+    return "\n".join(lines)

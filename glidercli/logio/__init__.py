@@ -1,0 +1,8 @@
+"""How do logs come in and go out? One reader per family, one writer per output, picked by content and by ending."""
+
+from glidercli.logio.reading import FORMATS, Reading, read
+from glidercli.logio.replaying import Replay, replay
+from glidercli.logio.report import FileReport
+from glidercli.logio.writing import SUFFIXES, write
+
+__all__ = ["FORMATS", "SUFFIXES", "FileReport", "Reading", "Replay", "read", "replay", "write"]

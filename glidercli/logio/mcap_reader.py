@@ -1,0 +1,183 @@
+"""How does an MCAP file that glider wrote become the Log again? The own topics are read, the viewers' are skipped."""
+
+from __future__ import annotations
+
+import math
+import os
+import struct
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any, NamedTuple, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glidercli.channels import CHANNELS
+from glidercli.errors import InputError
+from glidercli.files import readable_file
+from glidercli.log import Channel, Event, Log, Origin
+from glidercli.logio.mcap_messages import EVENT_TOPIC, Array, decoded, field_names, message_class, template_of
+from glidercli.logio.mcap_writer import FORMAT, MAGIC
+
+if TYPE_CHECKING:
+    from mcap.summary import Summary
+
+__all__ = ["is_mcap", "read_mcap"]
+
+_MESSAGE, _FOOTER, _DATA_END = 0x05, 0x02, 0x0F  # opcodes
+_HEAD = 31  # bytes of a message record before its payload; its log time stands at byte 15
+_DATA_END_SIZE, _FOOTER_SIZE = 13, 29  # bytes of the whole records
+
+Notes = Mapping[str, Mapping[str, str]]
+
+
+class _Damaged(Exception):
+    """The bytes are not what they should be."""
+
+
+class _Found(NamedTuple):
+    """The messages of a topic: their kind and, with the 31 bytes before each, the records."""
+
+    kind: type[Any]
+    records: list[bytes]
+
+
+def is_mcap(path: Path) -> bool:
+    """Whether the file starts as an MCAP file does; False where it cannot be read."""
+    try:
+        with path.open("rb") as stream:
+            return stream.read(len(MAGIC)) == MAGIC
+    except OSError:
+        return False
+
+
+def read_mcap(path: Path) -> Log:
+    """The Log that `write_mcap` wrote, equal to the last bit: channels, origins, metadata, events.
+
+    Raises InputError for a file that is no MCAP, was not written by glider, or is cut short or damaged.
+    """
+    readable_file(path)
+    if not is_mcap(path):
+        raise InputError(path, "is no MCAP file: it does not start with the MCAP magic bytes")
+    import zstandard
+    from google.protobuf.message import DecodeError
+    from mcap.exceptions import McapError
+    from mcap.reader import SeekingReader
+
+    try:
+        with path.open("rb") as stream:
+            _check_sums(stream)
+            stream.seek(0)
+            reader = SeekingReader(stream)
+            notes = {record.name: record.metadata for record in reader.iter_metadata()}
+            _check_written_by_glider(path, notes)
+            summary = reader.get_summary()
+            if summary is None:
+                raise _Damaged("no summary")
+            return _log(notes, _topics(stream, summary))
+    except (
+        _Damaged, McapError, zstandard.ZstdError, DecodeError, struct.error, ValueError, KeyError, IndexError, TypeError
+    ) as fault:  # fmt: skip
+        raise InputError(
+            path, "is truncated or damaged; a whole MCAP file is needed (`pymcap-cli recover` may save most of it)"
+        ) from fault
+
+
+def _check_written_by_glider(path: Path, notes: Notes) -> None:
+    told = notes.get("version", {})
+    if not told.get("program", "").startswith("glidercli ") or not {"run", "origin"} <= notes.keys():
+        raise InputError(path, "is an MCAP file that glider did not write; one made by glider -o NAME.mcap is needed")
+    if told.get("format") != FORMAT:
+        raise InputError(path, f"has layout {told.get('format')} of {told['program']}; layout {FORMAT} can be read")
+
+
+def _check_sums(stream: IO[bytes]) -> None:
+    """Raise where the end is missing or a checksum of the data section or the summary is wrong; zero is none."""
+    end = stream.seek(0, os.SEEK_END) - len(MAGIC)
+    tail = _bytes_of(stream, max(end - _FOOTER_SIZE, 0), end + len(MAGIC))
+    opcode, _, summary, _, summary_crc = struct.unpack_from("<BQQQI", tail)
+    if opcode != _FOOTER or tail[_FOOTER_SIZE:] != MAGIC:
+        raise _Damaged("no footer")
+    if summary == 0:
+        return
+    opcode, _, data_crc = struct.unpack("<BQI", _bytes_of(stream, summary - _DATA_END_SIZE, summary))
+    if opcode != _DATA_END or data_crc not in (0, _sum_of(stream, 0, summary - _DATA_END_SIZE)):
+        raise _Damaged("wrong checksum of the data section")
+    if summary_crc not in (0, _sum_of(stream, summary, end - 4)):
+        raise _Damaged("wrong checksum of the summary")
+
+
+def _bytes_of(stream: IO[bytes], start: int, end: int) -> bytes:
+    stream.seek(start)
+    return stream.read(end - start)
+
+
+def _sum_of(stream: IO[bytes], start: int, end: int) -> int:
+    """CRC-32 of the bytes from start to end (exclusive)."""
+    crc, step = 0, 1 << 22
+    for at in range(start, end, step):
+        crc = zlib.crc32(_bytes_of(stream, at, min(at + step, end)), crc)
+    return crc
+
+
+def _topics(stream: IO[bytes], summary: Summary) -> dict[str, _Found]:
+    """The messages of glider's own topics."""
+    from mcap.data_stream import ReadDataStream
+    from mcap.records import Chunk
+    from mcap.stream_reader import get_chunk_data_stream
+
+    found, by_channel = {}, {}
+    for channel in summary.channels.values():
+        schema = summary.schemas[channel.schema_id]
+        if schema.name.startswith("glider."):
+            found[channel.topic] = _Found(message_class(schema.data, schema.name), [])
+            by_channel[channel.id] = found[channel.topic].records
+    for index in summary.chunk_indexes:
+        stream.seek(index.chunk_start_offset + 9)
+        data, length = get_chunk_data_stream(Chunk.read(ReadDataStream(stream)), validate_crc=True)
+        block = data.read(length)
+        at, head = 0, struct.Struct("<BQH")
+        while at < length:
+            opcode, size, channel_id = head.unpack_from(block, at)
+            if opcode == _MESSAGE and channel_id in by_channel:
+                by_channel[channel_id].append(block[at : at + 9 + size])
+            at += 9 + size
+    return found
+
+
+def _log(notes: Notes, topics: Mapping[str, _Found]) -> Log:
+    """The Log of metadata records and messages."""
+    columns: dict[str, tuple[NDArray[np.int64], Array]] = {}
+    for topic, found in topics.items():
+        if topic != EVENT_TOPIC and found.records:
+            columns.update(_columns(found))
+    origins = notes["origin"]
+    missing = (np.array([], np.int64), np.array([]))
+    channels = {}
+    for name in origins["channels"].split():
+        time_ns, values = columns.get(field_names(CHANNELS[name])[0], missing)
+        sampled = ~np.isnan(values)
+        channels[name] = Channel(name, time_ns[sampled], values[sampled], cast(Origin, origins[name]))
+    events = _events(topics[EVENT_TOPIC]) if EVENT_TOPIC in topics else ()
+    return Log(channels, cast(Origin, origins["log"]), dict(notes["run"]), events)
+
+
+def _columns(found: _Found) -> dict[str, tuple[NDArray[np.int64], Array]]:
+    """Times and values of each field of a topic, in time order; NaN where there is no sample."""
+    if len(set(map(len, found.records))) != 1:
+        raise _Damaged("messages of unequal length")
+    rows = np.frombuffer(b"".join(found.records), np.uint8).reshape(len(found.records), -1)
+    time_ns = np.ascontiguousarray(rows[:, 15:23]).view("<i8")[:, 0].astype(np.int64)
+    template, names = template_of(found.kind)
+    values = decoded(template, rows[:, _HEAD:], len(names))
+    if values is None:
+        raise _Damaged("messages that do not fit their schema")
+    order = np.argsort(time_ns, kind="stable")
+    return {name: (time_ns[order], column[order]) for name, column in zip(names, values, strict=True)}
+
+
+def _events(found: _Found) -> tuple[Event, ...]:
+    """The events in the order of the file."""
+    messages = [found.kind.FromString(record[_HEAD:]) for record in found.records]
+    return tuple(Event(m.name, m.time_ns, None if math.isnan(m.depth_m) else m.depth_m) for m in messages)

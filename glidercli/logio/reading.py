@@ -1,0 +1,142 @@
+"""Which files make a log? Files, folders and globs, each read by its content, joined into one Log in time order."""
+
+from __future__ import annotations
+
+import dataclasses
+import glob
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from glidercli.errors import GliderError, InputError
+from glidercli.files import readable_file
+from glidercli.log import Channel, Log
+from glidercli.logio.csv_log import is_csv, read_csv
+from glidercli.logio.dead_reckoning import with_track
+from glidercli.logio.derived import with_derived
+from glidercli.logio.report import FileReport
+from glidercli.logio.seaexplorer import is_seaexplorer, read_seaexplorer
+
+__all__ = ["FORMATS", "Reading", "read"]
+
+Reader = Callable[[Path], tuple[Log, FileReport]]
+
+
+@dataclasses.dataclass(frozen=True)
+class Reading:
+    """A log, and the account of every file that it came from."""
+
+    log: Log
+    files: tuple[FileReport, ...]
+
+
+def _is_mcap(path: Path) -> bool:
+    from glidercli.logio.mcap_reader import is_mcap
+
+    return is_mcap(path)
+
+
+def _read_mcap(path: Path) -> tuple[Log, FileReport]:
+    from glidercli.logio.mcap_reader import read_mcap
+
+    log = read_mcap(path)
+    times = [channel.time_ns for channel in log.channels.values()]
+    records = len(np.unique(np.concatenate(times))) if times else 0
+    return log, FileReport(path, "glider-mcap", records, records)
+
+
+FORMATS: dict[str, tuple[Callable[[Path], bool], Reader]] = {
+    "glider-mcap": (_is_mcap, _read_mcap),
+    "seaexplorer": (is_seaexplorer, read_seaexplorer),
+    "glider-csv": (is_csv, read_csv),
+}
+"""Formats by name: whether a file is one, and its reader; asked in this order."""
+
+
+def read(paths: Sequence[str | Path], format: str | None = None) -> Reading:
+    """The Log of files, folders and quoted globs, with what can be derived, and an account of every file.
+
+    format : read every file as this format, whatever it looks like.
+
+    Raises
+    ------
+    InputError
+        A path does not exist, or no file could be read; one that could not beside others is in the account.
+    """
+    if format is not None and format not in FORMATS:
+        raise InputError(format, f"is no format; allowed: {', '.join(FORMATS)}")
+    files = _files(paths)
+    logs, reports = [], []
+    for path in files:
+        try:
+            log, report = _read_one(path, format)
+            if log.channels:
+                logs.append(log)
+            else:
+                report = dataclasses.replace(report, error="no usable record")
+        except GliderError as error:
+            report = FileReport(path, None, 0, 0, error=str(error).removeprefix(f"{path}: "))
+        reports.append(report)
+    if not logs:
+        first = reports[0]
+        more = f" (and {len(reports) - 1} more files)" if len(reports) > 1 else ""
+        raise InputError(first.path, f"{first.error}{more}")
+    log = _joined(logs)
+    if any(report.format == "seaexplorer" for report in reports):
+        log = with_track(with_derived(log)).with_metadata(
+            title="SeaExplorer log",
+            platform="SeaExplorer",
+            mass_position_zero="the actuator's own zero (LinPos), not the model's",
+            mass_rotation_note="mass_rotation = -AngPos: recorded roll follows AngPos, the model's rotation opposes it",
+            heading_note="taken as recorded; whether the declination was applied is not told by the file",
+            phase_note="from the recorded NavState",
+        )
+    return Reading(log, tuple(reports))
+
+
+def _files(paths: Sequence[str | Path]) -> list[Path]:
+    """Every file that the paths name, each once; folders and globs sorted, companions of tables left out."""
+    found: list[Path] = []
+    for given in paths:
+        path = Path(given)
+        if path.is_dir():
+            inside = [p for p in sorted(path.iterdir()) if p.is_file() and not p.name.startswith(".")]
+            recognised = [p for p in inside if p.stat().st_size and _format_of(p)]
+            if not recognised:
+                raise InputError(path, f"holds no log; readable are {', '.join(FORMATS)}")
+            found += recognised
+        elif path.exists() or not glob.has_magic(str(given)):
+            found.append(path)
+        else:
+            matches = sorted(Path(match) for match in glob.glob(str(given)))
+            if not matches:
+                raise InputError(given, "no file matches")
+            found += [match for match in matches if match.is_file()]
+    return list(dict.fromkeys(found))
+
+
+def _format_of(path: Path) -> str | None:
+    return next((name for name, (recognises, _) in FORMATS.items() if recognises(path)), None)
+
+
+def _read_one(path: Path, format: str | None) -> tuple[Log, FileReport]:
+    readable_file(path)
+    name = format or _format_of(path)
+    if name is None:
+        raise InputError(path, f"is not a log that can be read; readable are {', '.join(FORMATS)}")
+    return FORMATS[name][1](path)
+
+
+def _joined(logs: Sequence[Log]) -> Log:
+    """One log of several: each channel's samples in time order, the first of samples at the same time kept."""
+    if len(logs) == 1:
+        return logs[0]
+    channels = {}
+    for name in dict.fromkeys(name for log in logs for name in log.channels):
+        parts = [log[name] for log in logs if name in log]
+        times, first = np.unique(np.concatenate([part.time_ns for part in parts]), return_index=True)
+        channels[name] = Channel(name, times, np.concatenate([p.values for p in parts])[first], parts[0].origin)
+    metadata = {key: value for log in reversed(logs) for key, value in log.metadata.items()}
+    events = tuple(sorted((e for log in logs for e in log.events), key=lambda event: event.time_ns))
+    return Log(channels, logs[0].origin, metadata, events)

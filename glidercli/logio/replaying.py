@@ -1,0 +1,118 @@
+"""What does a recording hold, and where did each record go? The library call behind ``glider replay``."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from glidercli.channels import CHANNELS, PHASES
+from glidercli.errors import InputError
+from glidercli.log import Channel, Log
+from glidercli.logio.reading import read
+from glidercli.logio.report import FileReport
+from glidercli.logio.writing import write
+from glidercli.provenance import provenance_json
+
+__all__ = ["Replay", "replay"]
+
+
+@dataclasses.dataclass(frozen=True)
+class Replay:
+    """A log as replayed: its files' accounts, and the outputs written."""
+
+    log: Log
+    files: tuple[FileReport, ...]
+    outputs: tuple[Path, ...]
+
+    @property
+    def broken(self) -> tuple[FileReport, ...]:
+        """Files that could not be read."""
+        return tuple(report for report in self.files if report.error is not None)
+
+    def document(self) -> dict[str, Any]:
+        """The contract's JSON."""
+        return {
+            "files": [report.document() for report in self.files],
+            "channels": [_channel(channel) for channel in self.log.channels.values() if len(channel)],
+            "outputs": [str(path) for path in self.outputs],
+        }
+
+
+def iso(time_ns: int) -> str:
+    """A time as ISO 8601 UTC to the millisecond."""
+    return f"{np.datetime_as_string(np.datetime64(int(time_ns), 'ns'), unit='ms')}Z"
+
+
+def _channel(channel: Channel) -> dict[str, Any]:
+    """One channel in the table's name and unit."""
+    spec = CHANNELS[channel.name]
+    values = channel.values * spec.factor
+    least, most = float(values.min()), float(values.max())
+    words = channel.name == "phase"
+    return {
+        "name": spec.column,
+        "unit": spec.column_unit,
+        "samples": len(channel),
+        "first": iso(channel.time_ns[0]),
+        "last": iso(channel.time_ns[-1]),
+        "minimum": PHASES[int(least)] if words else least,
+        "maximum": PHASES[int(most)] if words else most,
+        "origin": channel.origin,
+    }
+
+
+def replay(
+    paths: Sequence[str | Path],
+    outputs: Sequence[str | Path] = (),
+    *,
+    format: str | None = None,
+    start: str | None = None,
+    end: str | None = None,
+    force: bool = False,
+) -> Replay:
+    """Read logs, account for every record, and write the outputs.
+
+    Parameters
+    ----------
+    paths : files, folders, globs. outputs : files; the ending picks the writer.
+    format : read every file as this format.
+    start, end : ISO 8601 UTC, or seconds since the log's first sample; the part with start <= time < end is taken.
+    """
+    reading = read(paths, format)
+    log = reading.log
+    if start is not None or end is not None:
+        log = log.sliced(_moment(log, "--start", start), _moment(log, "--end", end))
+        if not log.channels:
+            raise InputError(
+                "--start, --end",
+                f"no sample lies there; the log runs {iso(reading.log.start_ns)} to {iso(reading.log.end_ns)}",
+            )
+    inputs = [report.path for report in reading.files if report.error is None]
+    log = log.with_metadata(provenance=provenance_json(inputs=inputs, origin=log.origin))
+    for path in outputs:
+        write(log, path, force=force)
+    return Replay(log, reading.files, tuple(Path(path) for path in outputs))
+
+
+def _moment(log: Log, option: str, text: str | None) -> int | None:
+    """A time of --start or --end as UTC ns."""
+    import pandas as pd
+
+    if text is None:
+        return None
+    try:
+        return log.start_ns + round(float(text) * 1e9)
+    except (ValueError, OverflowError):
+        pass
+    try:
+        moment = pd.Timestamp(text)
+    except ValueError:
+        moment = pd.NaT
+    if moment is pd.NaT:
+        raise InputError(option, f"{text!r} is no time; ISO 8601 UTC or seconds since the log's start are allowed")
+    moment = moment.tz_localize("UTC") if moment.tzinfo is None else moment.tz_convert("UTC")
+    return int(moment.as_unit("ns").value)
