@@ -55,9 +55,8 @@ def _summary(d: dict[str, Any], origin: str) -> str:
     lines = [origin.upper(), f"{'file':<34} {'format':<12} {'records':>8} {'kept':>8}  dropped"]
     for f in d["files"]:
         gone = ", ".join(f"{item['count']} {item['reason']}" for item in f["dropped"]) or "none"
-        lines.append(
-            f"{Path(f['path']).name:<34} {f['format'] or '-':<12} {f['records']:>8} {f['kept']:>8}  {f.get('error', gone)}"
-        )
+        name, kind, gone = Path(f["path"]).name, f["format"] or "-", f.get("error", gone)
+        lines.append(f"{name:<34} {kind:<12} {f['records']:>8} {f['kept']:>8}  {gone}")
         lines += [f"    {warning}" for warning in f["warnings"]]
     lines.append(f"{'channel':<30} {'samples':>8} {'minimum':>12} {'maximum':>12}  origin")
     for c in d["channels"]:

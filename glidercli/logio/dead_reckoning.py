@@ -54,10 +54,10 @@ def with_track(log: Log) -> Log:
     ]
     if gap.any():
         notes.append(
-            f"{int(gap.sum())} gaps longer than {LONGEST_GAP:.0f} s, {float(steps[gap].sum()):.0f} s in all, bridged by "
-            "the closure alone"
+            f"{int(gap.sum())} gaps longer than {LONGEST_GAP:.0f} s, {float(steps[gap].sum()):.0f} s in all, bridged "
+            "by the closure alone"
         )
-    told = {}
+    told: dict[str, str] = {}
     if {"latitude", "longitude"} <= log.channels.keys():
         north, east, told = _closed(log, times, north, east, notes)
     else:

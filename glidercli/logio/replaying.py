@@ -108,11 +108,8 @@ def _moment(log: Log, option: str, text: str | None) -> int | None:
         return log.start_ns + round(float(text) * 1e9)
     except (ValueError, OverflowError):
         pass
-    try:
-        moment = pd.Timestamp(text)
-    except ValueError:
-        moment = pd.NaT
-    if moment is pd.NaT:
+    moment = pd.to_datetime(text, errors="coerce")
+    if pd.isna(moment):
         raise InputError(option, f"{text!r} is no time; ISO 8601 UTC or seconds since the log's start are allowed")
     moment = moment.tz_localize("UTC") if moment.tzinfo is None else moment.tz_convert("UTC")
     return int(moment.as_unit("ns").value)

@@ -146,7 +146,7 @@ def _numbers(texts: list[str]) -> Array:
 
 def _usable(time_ns: NDArray[np.int64], table: dict[str, Array], dropped: Counter[str]) -> NDArray[np.bool_]:
     """Which records can be used; the others are counted by their reason."""
-    good = time_ns != np.iinfo(np.int64).min
+    good: NDArray[np.bool_] = time_ns != np.iinfo(np.int64).min
     dropped["time cannot be read"] += int((~good).sum())
     if good.any():
         stray = good & (np.abs(time_ns - np.median(time_ns[good])) > STRAY)
