@@ -95,6 +95,12 @@ class Log:
         return name in self.channels
 
     @property
+    def kind(self) -> str:
+        """What the log is, in capitals: MEASURED, SIMULATED, SIMULATED FROM A RECONSTRUCTION, RECONSTRUCTION."""
+        remade = self.origin != "reconstruction" and "reconstruction" in self.metadata
+        return self.origin.upper() + (" FROM A RECONSTRUCTION" if remade else "")
+
+    @property
     def start_ns(self) -> int:
         """Time of the first sample of any channel."""
         return min(int(channel.time_ns[0]) for channel in self.channels.values() if len(channel))

@@ -275,5 +275,5 @@ def _label(side: Side) -> str:
     return _shortened(f"{side.origin}: {side.name}{said}")
 
 
-def _shortened(line: str, most: int = 125) -> str:
+def _shortened(line: str, most: int = 95) -> str:
     return line if len(line) <= most else line[: most - 1] + "…"

@@ -1,0 +1,65 @@
+"""DESIGN, contract of ``glider replay``, from its words alone."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from conftest import ROOT, Run, one_line_error
+
+LOGS = ROOT / "logs/seaexplorer-sea035"
+
+
+def test_json_has_the_contracts_form(glider_json: Callable[..., Any]) -> None:
+    document = glider_json("replay", LOGS, "-o", "a.mcap")
+    assert set(document) == {"files", "channels", "outputs"}
+    for entry in document["files"]:
+        assert {"path", "format", "records", "kept", "dropped", "warnings"} <= set(entry)
+        assert entry["records"] == entry["kept"] + sum(item["count"] for item in entry["dropped"])
+    names = {channel["name"] for channel in document["channels"]}
+    assert names >= {
+        "depth_m", "pitch_deg", "roll_deg", "heading_deg", "mass_position_m", "mass_rotation_deg", "ballast_volume_cm3",
+        "temperature_degC", "conductivity_S_m", "pressure_dbar", "latitude_deg", "longitude_deg", "north_m", "east_m",
+        "down_m",
+    }  # fmt: skip
+    for channel in document["channels"]:
+        assert {"name", "unit", "samples", "first", "last", "minimum", "maximum"} <= set(channel)
+    assert document["outputs"] == ["a.mcap"]
+
+
+def test_outputs_pass_independent_checks(glider: Run, tmp_path: Path) -> None:
+    assert glider("replay", LOGS, "-o", "a.mcap", "-o", "a.rrd").returncode == 0
+    for tool in (["pymcap-cli", "doctor", "a.mcap"], ["rerun", "rrd", "verify", "a.rrd"]):
+        command = [str(Path(sys.executable).with_name(tool[0])), *tool[1:]]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+        assert done.returncode == 0, (tool, done.stdout, done.stderr)
+
+
+def test_a_broken_file_is_named_and_strict_makes_it_1(glider: Run, tmp_path: Path) -> None:
+    shutil.copy(LOGS / "sea035.12.gli.sub.37", tmp_path)
+    (tmp_path / "broken.txt").write_text("no log\n")
+    done = glider("replay", "sea035.12.gli.sub.37", "broken.txt")
+    assert done.returncode == 0
+    assert "broken.txt" in done.stderr
+    one_line_error(glider("replay", "sea035.12.gli.sub.37", "broken.txt", "--strict"), "broken.txt")
+
+
+def test_start_and_end(glider_json: Callable[..., Any]) -> None:
+    document = glider_json("replay", LOGS, "--start", "2019-07-22T00:00:00Z", "--end", "2019-07-22T01:00:00Z")
+    for channel in document["channels"]:
+        assert channel["first"] >= "2019-07-22T00:00:00"
+        assert channel["last"] < "2019-07-22T01:00:00"
+
+
+def test_bad_input_is_one_line(glider: Run, tmp_path: Path) -> None:
+    (tmp_path / "empty").write_bytes(b"")
+    (tmp_path / "folder").mkdir()
+    for target in ("missing", "empty", "folder", "*.none"):
+        one_line_error(glider("replay", target, "-o", "o.mcap"), target)
+    one_line_error(glider("replay", LOGS, "--start", "later"), "--start")
+    one_line_error(glider("replay", LOGS, "--format", "floppy"), "floppy", "seaexplorer")
+    assert not (tmp_path / "o.mcap").exists()

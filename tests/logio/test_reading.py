@@ -1,0 +1,88 @@
+"""Files, folders and globs; CSV round trip; outputs whole."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+from glidercli.errors import InputError, OutputError
+from glidercli.log import Channel, Event, Log
+from glidercli.logio import read, write
+
+LOGS = ROOT / "logs/seaexplorer-sea035"
+
+
+def sample() -> Log:
+    t = np.array([0, 10**9, 3 * 10**9], dtype=np.int64) + 1_563_000_000 * 10**9
+    return Log(
+        {
+            "depth": Channel("depth", t, np.array([1.0, 2.5, 1 / 3]), "simulated"),
+            "pitch": Channel("pitch", t[1:], np.array([-0.1, 0.7]), "simulated"),
+            "phase": Channel("phase", t[:2], np.array([1.0, 2.0]), "simulated"),
+        },
+        "simulated",
+        {"title": 'a, "b"', "provenance": "{}"},
+        (Event("apogee", int(t[1]), 2.5),),
+    )
+
+
+def test_csv_round_trip(tmp_path: Path) -> None:
+    log = sample()
+    write(log, tmp_path / "a.csv")
+    back = read([tmp_path / "a.csv"]).log
+    assert back.origin == "simulated"
+    assert back.events == log.events
+    assert back.metadata["title"] == log.metadata["title"]
+    for name, channel in log.channels.items():
+        assert (back[name].time_ns == channel.time_ns).all()
+        np.testing.assert_allclose(back[name].values, channel.values, rtol=4e-16)  # degrees and back: two roundings
+
+
+def test_mcap_and_csv_read_by_content_not_by_name(tmp_path: Path) -> None:
+    write(sample(), tmp_path / "a.mcap")
+    os.rename(tmp_path / "a.mcap", tmp_path / "b.bin")
+    assert read([tmp_path / "b.bin"]).files[0].format == "glider-mcap"
+
+
+def test_folder_glob_and_files_are_the_same_log() -> None:
+    folder, pattern = read([LOGS]), read([str(LOGS / "*.sub.*")])
+    single = read(sorted(LOGS.glob("*.sub.*")))
+    for other in (pattern, single):
+        assert {n: len(c) for n, c in other.log.channels.items()} == {n: len(c) for n, c in folder.log.channels.items()}
+    assert len(folder.files) == 6
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "words"),
+    [
+        ("e.csv", b"", "is empty"),
+        ("b.csv", bytes(range(256)), "not a log that can be read"),
+        ("t.csv", b"time_utc,depth_m\n2020-01-01T00:00:00Z,deep\n", "line 2: depth_m = 'deep'"),
+        ("o.csv", b"elapsed_s,depth_m\n2,1\n1,2\n", "line 3: the time does not increase"),
+        ("n.csv", b"elapsed_s,depth_m\nnan,1\n", "line 2: the time cannot be read"),
+    ],
+)
+def test_bad_files_are_named(tmp_path: Path, name: str, data: bytes, words: str) -> None:
+    (tmp_path / name).write_bytes(data)
+    with pytest.raises(InputError, match=words):
+        read([tmp_path / name])
+
+
+def test_missing_file_empty_folder_and_empty_glob(tmp_path: Path) -> None:
+    for target in (tmp_path / "none.csv", tmp_path, str(tmp_path / "*.csv")):
+        with pytest.raises(InputError):
+            read([target])
+
+
+def test_outputs_are_whole_or_not_there(tmp_path: Path) -> None:
+    write(sample(), tmp_path / "a.csv")
+    before = (tmp_path / "a.csv").read_bytes()
+    with pytest.raises(OutputError, match="--force"):
+        write(sample(), tmp_path / "a.csv")
+    assert (tmp_path / "a.csv").read_bytes() == before
+    write(sample(), tmp_path / "a.csv", force=True)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["a.csv", "a.csv-metadata.json"]

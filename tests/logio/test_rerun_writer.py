@@ -1,0 +1,250 @@
+"""Does a Rerun recording hold just what the Log holds, the same bytes each time, and only panels with data?"""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glidercli.channels import CHANNELS, PHASES
+from glidercli.errors import OutputError
+from glidercli.log import Channel, Event, Log
+from glidercli.logio.rerun_blueprint import _xxh32
+from glidercli.logio.rerun_writer import write_rerun
+
+START = 1_315_000_000_123_456_789
+
+
+def channel(name: str, seconds: Any, values: Any, origin: Any = "simulated") -> Channel:
+    time_ns = START + np.round(np.asarray(seconds, dtype=float) * 1e9).astype(np.int64)
+    return Channel(name, time_ns, np.broadcast_to(np.asarray(values, dtype=float), time_ns.shape), origin)
+
+
+def log_of(channels: list[Channel], origin: Any, metadata: dict[str, str], events: tuple[Event, ...] = ()) -> Log:
+    return Log({c.name: c for c in channels}, origin, metadata, events)
+
+
+@pytest.fixture
+def spiral() -> Log:
+    """A simulated 800 m dive and climb on a spiral, every 10 s."""
+    t = np.arange(0.0, 6000.0, 10.0)
+    side = np.where(t < 3000.0, 1.0, -1.0)
+    depth, heading = np.interp(t, [0.0, 3000.0, 6000.0], [0.0, 800.0, 0.0]), np.radians(0.4 * t) % (2 * np.pi)
+    values = {
+        "depth": depth, "down": depth, "north": 60.0 * np.sin(heading), "east": -60.0 * np.cos(heading) + 0.02 * t,
+        "roll": np.radians(-8.0 * side), "pitch": np.radians(-25.0 * side), "heading": heading,
+        "mass_position": 0.4 + 0.03 * side, "mass_rotation": np.radians(45.0 * side), "net_buoyancy": 0.3 * side,
+        "temperature": 4.0 + 20.0 * np.exp(-depth / 150.0), "salinity": 34.5 + 0.0 * t, "density": 1022.0 + 0.008 * depth,
+        "current_east": 0.06 * np.exp(-depth / 200.0), "current_north": 0.02, "speed_through_water": 0.5,
+        "phase": np.where(side > 0, 1.0, 2.0),
+    }  # fmt: skip
+    metadata = {"hull_length_m": "1.99", "hull_diameter_m": "0.22", "provenance": '{"command": ["glider", "simulate"]}'}
+    events = (Event("apogee", START + 3000 * 10**9, 800.0), Event("surfacing", START + 5990 * 10**9))
+    return log_of([channel(name, t, value) for name, value in values.items()], "simulated", metadata, events)
+
+
+@pytest.fixture
+def field() -> Log:
+    """A measured dive without a track: attitude every 20 s, CTD every 30 s on its own clock, three GPS fixes."""
+    t, ctd, gps = np.arange(0.0, 3600.0, 20.0), np.arange(7.5, 3600.0, 30.0), [1.0, 2.0, 3590.0]
+    channels = [
+        channel("depth", t, 300.0 * np.sin(np.pi * t / 3600.0), "measured"),
+        channel("pitch", t[:-3], -0.4, "measured"), channel("roll", t, 0.02, "measured"),
+        channel("heading", t, 6.2, "measured"),
+        channel("temperature", ctd, 8.0, "measured"), channel("conductivity", ctd, 3.3, "measured"),
+        channel("latitude", gps, [18.0, 18.001, 18.01], "measured"),
+        channel("longitude", gps, [112.0, 112.001, 112.01], "measured"),
+    ]  # fmt: skip
+    return log_of(channels, "measured", {"platform": "test | glider"})
+
+
+@pytest.fixture
+def depth_only() -> Log:
+    return log_of([channel("depth", [0.0, 10.0, 20.0], [0.0, 5.0, 9.0])], "reconstruction", {})
+
+
+def written(log: Log, folder: Path, name: str = "log.rrd") -> Path:
+    write_rerun(log, folder / name)
+    return folder / name
+
+
+def rows(path: Path, entity: str, component: str, blueprint: bool = False) -> tuple[Any, Any, list[Any]]:
+    """Times in both timelines (None where static) and values of one component, by the library's own reader."""
+    from rerun.chunk import RrdReader
+
+    reader = RrdReader(path)
+    store = reader.blueprints()[0] if blueprint else None
+    for chunk in reader.stream(store=store).to_chunks():
+        batch = chunk.to_record_batch()
+        if chunk.entity_path == entity and component in batch.schema.names:
+            times = [
+                batch.column(name).to_numpy(zero_copy_only=False).astype(np.int64)
+                if name in batch.schema.names
+                else None
+                for name in ("utc", "elapsed")
+            ]
+            return *times, batch.column(component).to_pylist()
+    raise KeyError(f"{entity} {component}")
+
+
+def panels(path: Path) -> set[str]:
+    """Names of the views in the file's blueprint."""
+    from rerun.chunk import RrdReader
+
+    reader = RrdReader(path)
+    batches = [chunk.to_record_batch() for chunk in reader.stream(store=reader.blueprints()[0]).to_chunks()]
+    column = "ViewBlueprint:display_name"
+    return {batch.column(column).to_pylist()[0][0] for batch in batches if column in batch.schema.names}
+
+
+def page(path: Path) -> str:
+    return str(rows(path, "/about", "TextDocument:text")[2][0][0])
+
+
+@pytest.mark.parametrize("name", ["spiral", "field", "depth_only"])
+def test_verifier_of_the_viewer_accepts_the_file(name: str, request: pytest.FixtureRequest, tmp_path: Path) -> None:
+    path = written(request.getfixturevalue(name), tmp_path)
+    # A home without settings but with analytics off: nothing is sent, nothing of the user's is read.
+    settings = tmp_path / "config" / "rerun" / "analytics.json"
+    settings.parent.mkdir(parents=True)
+    settings.write_text('{"analytics_enabled": false, "analytics_id": "", "metadata": {}}')
+    home = {"HOME": str(tmp_path), "XDG_CONFIG_HOME": str(tmp_path / "config"), "XDG_DATA_HOME": str(tmp_path)}
+    program = Path(sys.executable).with_name("rerun")
+    done = subprocess.run(
+        [program, "rrd", "verify", path], env={**os.environ, **home}, capture_output=True, text=True, timeout=60
+    )
+    assert done.returncode == 0, done.stderr
+    assert "without error" in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("name", ["spiral", "field", "depth_only"])
+def test_every_sample_comes_back(name: str, request: pytest.FixtureRequest, tmp_path: Path) -> None:
+    log = request.getfixturevalue(name)
+    path = written(log, tmp_path)
+    for name, sent in log.channels.items():
+        if name == "phase":
+            continue
+        spec = CHANNELS[name]
+        utc, elapsed, values = rows(path, f"/{spec.group}/{name}", "Scalars:scalars")
+        np.testing.assert_array_equal(utc, sent.time_ns)
+        np.testing.assert_array_equal(elapsed, sent.time_ns - log.start_ns)
+        factor = -1.0 if name == "depth" else spec.factor
+        np.testing.assert_array_equal(np.ravel(values), sent.values * factor)
+
+
+def test_phases_stand_where_they_change(spiral: Log, tmp_path: Path) -> None:
+    utc, _, states = rows(written(spiral, tmp_path), "/navigation/phase", "StateChange:state")
+    assert [state[0] for state in states] == ["dive", "climb"]
+    np.testing.assert_array_equal(utc, [START, START + 3000 * 10**9])
+    assert set(PHASES) >= {state[0] for state in states}
+
+
+def test_vehicle_moves_along_the_track_nose_down_in_a_dive(spiral: Log, tmp_path: Path) -> None:
+    path = written(spiral, tmp_path)
+    _, _, places = rows(path, "/world/vehicle", "Transform3D:translation")
+    track = np.stack([spiral[name].values for name in ("north", "east", "down")], axis=-1)
+    np.testing.assert_allclose(np.squeeze(places), track, atol=1e-4)  # float32 of 800 m: 6e-5
+    _, _, turns = rows(path, "/world/vehicle/body", "Transform3D:quaternion")
+    x, y, z, w = turns[0][0]
+    nose_down = 2.0 * (x * z - w * y)  # third row, first column of R_ned_body = -sin(pitch)
+    assert nose_down == pytest.approx(np.sin(np.radians(25.0)), abs=1e-6)  # float32
+
+
+def test_mass_turns_to_port_for_positive_rotation(spiral: Log, tmp_path: Path) -> None:
+    path = written(spiral, tmp_path)
+    _, _, slides = rows(path, "/world/vehicle/body/slide", "Transform3D:translation")
+    np.testing.assert_allclose(np.squeeze(slides)[:, 0], spiral["mass_position"].values, atol=1e-6)  # float32
+    _, _, turns = rows(path, "/world/vehicle/body/slide/turn", "Transform3D:quaternion")
+    x, y, z, w = turns[0][0]
+    # R (0, 0, Rr) = (0, -Rr sin gamma, Rr cos gamma) for gamma = 45 deg; float32
+    assert (2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)) == pytest.approx((-(0.5**0.5), 0.5**0.5), abs=1e-6)
+
+
+def test_attitude_stands_only_where_all_three_angles_do(field: Log, tmp_path: Path) -> None:
+    utc, _, _ = rows(written(field, tmp_path), "/world/vehicle/body", "Transform3D:quaternion")
+    np.testing.assert_array_equal(utc, field["pitch"].time_ns)
+
+
+def test_mass_with_a_zero_of_its_own_is_drawn_about_its_middle(spiral: Log, tmp_path: Path) -> None:
+    path = written(spiral.with_metadata(mass_position_zero="LinPos"), tmp_path)
+    _, _, slides = rows(path, "/world/vehicle/body/slide", "Transform3D:translation")
+    forward = np.squeeze(slides)[:, 0]
+    assert (forward.min(), forward.max()) == pytest.approx((-0.03, 0.03), abs=1e-6)  # float32
+    assert "zero of its own" in page(path)
+
+
+@pytest.mark.parametrize("name", ["spiral", "field", "depth_only"])
+def test_same_log_gives_the_same_bytes(name: str, request: pytest.FixtureRequest, tmp_path: Path) -> None:
+    log = request.getfixturevalue(name)
+    backwards = Log(dict(reversed(log.channels.items())), log.origin, log.metadata, log.events)
+    once = written(log, tmp_path, "a.rrd").read_bytes()
+    assert once == written(log, tmp_path, "b.rrd").read_bytes()
+    assert once == written(backwards, tmp_path, "c.rrd").read_bytes()
+
+
+def test_another_log_is_another_recording(depth_only: Log, tmp_path: Path) -> None:
+    from rerun.chunk import RrdReader
+
+    other = depth_only.with_metadata(title="another")
+    ids = {RrdReader(written(log, tmp_path)).recordings()[0].recording_id for log in (depth_only, other)}
+    assert len(ids) == 2
+
+
+def test_panels_without_data_are_left_out(spiral: Log, field: Log, depth_only: Log, tmp_path: Path) -> None:
+    assert panels(written(depth_only, tmp_path)) == {"depth, m (negative down)", "about this recording"}
+    assert panels(written(field, tmp_path)) == {
+        "MEASURED: camera on the hull (not to scale)", "depth, m (negative down)", "attitude, deg",
+        "heading, deg clockwise from north", "temperature, degC", "conductivity, S/m",
+        "MEASURED: from above, east right, north up, m", "latitude, deg", "longitude, deg", "about this recording",
+    }  # fmt: skip
+    shown = panels(written(spiral, tmp_path))
+    assert {"SIMULATED: track, north-east-down, m", "SIMULATED: camera on the hull", "flight phase", "events"} <= shown
+    assert "speed through water, m/s" in shown  # alone in its panel, so it is named
+
+
+@pytest.mark.parametrize("name", ["spiral", "field", "depth_only"])
+def test_origin_stands_at_the_top_of_the_page(name: str, request: pytest.FixtureRequest, tmp_path: Path) -> None:
+    log = request.getfixturevalue(name)
+    assert page(written(log, tmp_path)).startswith(f"# {log.origin.upper()}\n")
+
+
+def test_page_tells_provenance_metadata_and_derived_channels(field: Log, spiral: Log, tmp_path: Path) -> None:
+    text = page(written(spiral, tmp_path))
+    assert "| command | glider simulate |" in text
+    assert "five times larger" in text
+    path = written(field.with_channels(channel("density", [0.0, 1.0], 1025.0, "derived")), tmp_path)
+    text = page(path)
+    assert "- **derived**: density\n" in text
+    assert "| platform | test \\| glider |" in text
+    assert "NOT TO SCALE" in text
+
+
+def test_events_carry_their_times(spiral: Log, tmp_path: Path) -> None:
+    utc, _, texts = rows(written(spiral, tmp_path), "/events", "TextLog:text")
+    assert texts == [["apogee, depth 800.0 m"], ["surfacing"]]
+    np.testing.assert_array_equal(utc, [event.time_ns for event in spiral.events])
+
+
+def test_fixes_are_placed_about_the_origin(field: Log, spiral: Log, tmp_path: Path) -> None:
+    path = written(field, tmp_path)
+    north, east, down = np.array(rows(path, "/world/fixes", "Points3D:positions")[2][0]).T
+    # A degree of latitude is 110 647 m at 18 deg N (WGS 84), of longitude 105 909 m: to 0.1 % over 1 km.
+    np.testing.assert_allclose(north, [0.0, 110.65, 1106.5], rtol=1e-3)
+    np.testing.assert_allclose(east, [0.0, 105.91, 1059.1], rtol=1e-3)
+    assert (down == 0.0).all()
+    lost = spiral.with_channels(field["latitude"], field["longitude"])  # a track whose origin nobody knows
+    with pytest.raises(KeyError):
+        rows(written(lost, tmp_path), "/world/fixes", "Points3D:positions")
+
+
+def test_log_without_a_sample_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match="no sample"):
+        write_rerun(log_of([channel("depth", [], [])], "measured", {}), tmp_path / "empty.rrd")
+
+
+@pytest.mark.parametrize(("data", "seed", "value"), [(b"", 0, 0x02CC5D05), (b"abc", 0, 0x32D153FF)])
+def test_checksum_has_its_published_values(data: bytes, seed: int, value: int) -> None:
+    assert _xxh32(data, seed) == value
