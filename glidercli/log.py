@@ -139,7 +139,7 @@ class Log:
         time_ns = np.unique(np.concatenate([channel.time_ns for channel in kept])) if kept else np.array([], np.int64)
         columns: dict[str, object] = {
             "time_utc": time_ns.astype("datetime64[ns]"),
-            "elapsed_s": (time_ns - time_ns[0]) * 1e-9 if len(time_ns) else np.array([], float),
+            "elapsed_s": (time_ns - time_ns[0]) / 1e9 if len(time_ns) else np.array([], float),
         }
         for channel in kept:
             spec = CHANNELS[channel.name]

@@ -92,12 +92,12 @@ def _blueprint(log: Log, bounds: Array | None, has_hull: bool, has_plan: bool) -
 
     def space(title: str, contents: str, **eye: Any) -> Any:
         style = dict[str, Any](line_grid=False, eye_controls=rrb.EyeControls3D(eye_up=(0, 0, -1), **eye))
-        name = f"{log.origin.upper()}: {title}"
+        name = f"{log.kind}: {title}"
         return rrb.Spatial3DView(origin="/world", contents=contents.split(", "), name=name, **style)
 
     left: list[Any] = []
     if bounds is not None:
-        middle, size = bounds.mean(axis=0), float(np.linalg.norm(bounds[1] - bounds[0]))
+        middle, size = bounds.mean(axis=0), float(np.linalg.norm((bounds[1] - bounds[0]) * [1.45, 1.45, 1.0]))
         contents = "+ /world/**, - /world/vehicle/compass/**, - /world/vehicle/body/**"
         eye = middle + size * np.array([-0.62, -0.62, -0.72])
         left.append(space("track, north-east-down, m", contents, position=eye, look_target=middle))
@@ -105,15 +105,15 @@ def _blueprint(log: Log, bounds: Array | None, has_hull: bool, has_plan: bool) -
         length, _, own = hull_size(log)
         contents = "+ /world/vehicle/**, + /world/track, - /world/vehicle/marker"
         title = "camera on the hull" + ("" if own else " (not to scale)")
-        away = length * (1.0 if left else 1.6)  # alone the panel is tall and narrow
-        eye, hull = away * np.array([-0.8, 0.77, -0.5]), "/world/vehicle/body/hull"
+        eye, hull = (1.0 if left else 1.6) * length * np.array([-0.8, 0.77, -0.5]), "/world/vehicle/body/hull"
         left.append(space(title, contents, position=eye, look_target=(0, 0, 0), tracking_entity=hull))
     tabs: dict[str, list[Any]] = {}
     for tab, title, names in PLOTS:
         if present := [name for name in names if name in log]:
-            tabs.setdefault(tab, []).append(_plot(title, present))
+            alone = len(present) < min(len(names), 2)
+            tabs.setdefault(tab, []).append(_plot(series_name(present[0]) if alone else title, present))
     if has_plan:
-        plan = rrb.Spatial2DView(origin="/plan", name=f"{log.origin.upper()}: from above, east right, north up, m")
+        plan = rrb.Spatial2DView(origin="/plan", name=f"{log.kind}: from above, east right, north up, m")
         tabs["Map"] = [plan, *tabs.get("Map", [])]
     tabs["About"] = [rrb.TextDocumentView(origin="/about", name="about this recording")]
     if log.events:
@@ -126,8 +126,8 @@ def _blueprint(log: Log, bounds: Array | None, has_hull: bool, has_plan: bool) -
     columns.append(rrb.Tabs(*(rrb.Vertical(*views, name=tab) for tab, views in tabs.items())))
     pace = dict[str, Any](playback_speed=max(1.0, (log.end_ns - log.start_ns) / 60e9), play_state="paused")
     time = rrb.TimePanel(state="collapsed", timeline="elapsed" if log.origin == "simulated" else "utc", **pace)
-    panels = rrb.BlueprintPanel(state="hidden"), rrb.SelectionPanel(state="hidden")
-    return rrb.Blueprint(rrb.Horizontal(*columns, column_shares=shares), time, *panels)
+    hidden = rrb.BlueprintPanel(state="hidden"), rrb.SelectionPanel(state="hidden")
+    return rrb.Blueprint(rrb.Horizontal(*columns, column_shares=shares), time, *hidden)
 
 
 def _plot(title: str, channels: list[str]) -> Any:
@@ -140,7 +140,7 @@ def _plot(title: str, channels: list[str]) -> Any:
     contents = [f"/{CHANNELS[name].group}/{name}" for name in channels]
     if channels == ["phase"]:
         return rrb.StateTimelineView(origin="/", contents=contents, name=title, time_view=axis)
-    legend = rrb.PlotLegend(corner=rrb.Corner2D.RightTop, visible=len(channels) > 1)
+    legend = rrb.PlotLegend(visible=len(channels) > 1)
     return rrb.TimeSeriesView(origin="/", contents=contents, name=title, axis_x=axis, plot_legend=legend)
 
 

@@ -51,7 +51,8 @@ def write_rerun(log: Log, path: Path) -> None:
     recording.set_log_time_enabled(False)
     recording.save(path, default_blueprint=blueprint)
     rr.send_chunks(look.identified(chunks, digest), recording=recording)
-    recording.disconnect()  # flushes
+    recording.flush()
+    recording.disconnect()
     look.settle(path, digest)
 
 
@@ -59,8 +60,7 @@ def _digest(log: Log) -> str:
     """SHA-256 of all that a log holds, hexadecimal."""
     told = [log.origin, sorted(log.metadata.items()), [(e.name, e.time_ns, e.depth) for e in log.events]]
     whole = hashlib.sha256(json.dumps(told).encode())
-    for name in sorted(log.channels):
-        channel = log[name]
+    for name, channel in sorted(log.channels.items()):
         whole.update(f"{name} {channel.origin} {len(channel)} ".encode())
         whole.update(channel.time_ns.tobytes() + channel.values.tobytes())
     return whole.hexdigest()
@@ -80,7 +80,7 @@ def _header(log: Log) -> Iterator[Chunk]:
     """Name and start of the recording, and its events."""
     import rerun as rr
 
-    name = f"{log.origin.upper()} {np.datetime64(log.start_ns // 10**9, 's')} UTC"
+    name = f"{log.kind} {np.datetime64(log.start_ns // 10**9, 's')} UTC"
     yield look.row("/__properties", rr.archetypes.RecordingInfo(start_time=log.start_ns, name=name))
     if log.events:
         texts = [e.name if e.depth is None else f"{e.name}, depth {e.depth:.1f} m" for e in log.events]

@@ -51,7 +51,7 @@ class Simulation:
             "max_depth_m": self.max_depth,
             "final": {"time_utc": f"{table['time_utc'].iloc[-1].isoformat()}Z", **final},
             "events": [
-                {"name": e.name, "time_s": (e.time_ns - start) * 1e-9, "depth_m": e.depth} for e in self.log.events
+                {"name": e.name, "time_s": (e.time_ns - start) / 1e9, "depth_m": e.depth} for e in self.log.events
             ],
             "distance_m": self.distance,
             "energy_j": self.energy,
