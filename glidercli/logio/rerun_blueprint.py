@@ -63,18 +63,16 @@ PLOTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
 COLOURS = {name: colour for *_, names in PLOTS for name, colour in zip(names, (BLUE, ORANGE, GREEN), strict=False)}
 
 ORIGINS = {
-    "simulated": "SIMULATED. Computed by a model. Nothing here was measured.",
-    "measured": "MEASURED. Recorded by an instrument at sea. Channels that were computed from it are named below.",
-    "reconstruction": "RECONSTRUCTION. Rebuilt from published values. It is not a recording.",
-    "derived": "DERIVED. Computed from measured channels.",
+    "simulated": "Computed by a model. Nothing here was measured.",
+    "measured": "Recorded by an instrument at sea. Channels that were computed from it are named below.",
+    "reconstruction": "Rebuilt from published values. It is not a recording.",
+    "derived": "Computed from measured channels.",
 }
 
 
 def series_name(channel: str) -> str:
     """Name of a channel's line in a plot, with the unit that it is drawn in."""
-    if channel == "depth":
-        return "depth, m (negative down)"
-    unit = CHANNELS[channel].column_unit
+    unit = "m (negative down)" if channel == "depth" else CHANNELS[channel].column_unit
     return f"{channel.replace('_', ' ')}, {'practical, no unit' if unit == '1' else unit}"
 
 
@@ -90,9 +88,12 @@ def _blueprint(log: Log, bounds: Array | None, has_hull: bool, has_plan: bool) -
     """The rerun Blueprint of a log: 3-D on the left, flight plots in the middle, tabs with the rest on the right."""
     import rerun.blueprint as rrb
 
-    def space(title: str, contents: str, **eye: Any) -> Any:
+    def named(channel: str, title: str) -> str:
+        derived = channel in log and log[channel].origin == "derived"
+        return f"{'DERIVED' if derived else log.kind}: {title}"
+
+    def space(name: str, contents: str, **eye: Any) -> Any:
         style = dict[str, Any](line_grid=False, eye_controls=rrb.EyeControls3D(eye_up=(0, 0, -1), **eye))
-        name = f"{log.kind}: {title}"
         return rrb.Spatial3DView(origin="/world", contents=contents.split(", "), name=name, **style)
 
     left: list[Any] = []
@@ -100,11 +101,11 @@ def _blueprint(log: Log, bounds: Array | None, has_hull: bool, has_plan: bool) -
         middle, size = bounds.mean(axis=0), float(np.linalg.norm((bounds[1] - bounds[0]) * [1.45, 1.45, 1.0]))
         contents = "+ /world/**, - /world/vehicle/compass/**, - /world/vehicle/body/**"
         eye = middle + size * np.array([-0.62, -0.62, -0.72])
-        left.append(space("track, north-east-down, m", contents, position=eye, look_target=middle))
+        left.append(space(named("north", "track, north-east-down, m"), contents, position=eye, look_target=middle))
     if has_hull:
         length, _, own = hull_size(log)
         contents = "+ /world/vehicle/**, + /world/track, - /world/vehicle/marker"
-        title = "camera on the hull" + ("" if own else " (not to scale)")
+        title = named("heading", "camera on the hull" + ("" if own else " (not to scale)"))
         eye, hull = (1.0 if left else 1.6) * length * np.array([-0.8, 0.77, -0.5]), "/world/vehicle/body/hull"
         left.append(space(title, contents, position=eye, look_target=(0, 0, 0), tracking_entity=hull))
     tabs: dict[str, list[Any]] = {}
@@ -113,7 +114,7 @@ def _blueprint(log: Log, bounds: Array | None, has_hull: bool, has_plan: bool) -
             alone = len(present) < min(len(names), 2)
             tabs.setdefault(tab, []).append(_plot(series_name(present[0]) if alone else title, present))
     if has_plan:
-        plan = rrb.Spatial2DView(origin="/plan", name=f"{log.kind}: from above, east right, north up, m")
+        plan = rrb.Spatial2DView(origin="/plan", name=named("north", "from above, east right, north up, m"))
         tabs["Map"] = [plan, *tabs.get("Map", [])]
     tabs["About"] = [rrb.TextDocumentView(origin="/about", name="about this recording")]
     if log.events:
@@ -146,8 +147,7 @@ def _plot(title: str, channels: list[str]) -> Any:
 
 def about(log: Log, notes: list[str]) -> str:
     """The about page, Markdown: where the values come from, how they are drawn, metadata, provenance."""
-    word, _, rest = ORIGINS[log.origin].partition(". ")
-    lines = [f"# {word}", "", rest, ""]
+    lines = [f"# {log.kind}", "", ORIGINS[log.origin], ""]
     others: dict[str, list[str]] = {}
     for channel in log.channels.values():
         if channel.origin != log.origin:

@@ -1,5 +1,6 @@
 """Does a Rerun recording hold just what the Log holds, the same bytes each time, and only panels with data?"""
 
+import dataclasses
 import os
 import subprocess
 import sys
@@ -203,6 +204,13 @@ def test_panels_without_data_are_left_out(spiral: Log, field: Log, depth_only: L
     shown = panels(written(spiral, tmp_path))
     assert {"SIMULATED: track, north-east-down, m", "SIMULATED: camera on the hull", "flight phase", "events"} <= shown
     assert "speed through water, m/s" in shown  # alone in its panel, so it is named
+
+
+def test_derived_track_is_not_shown_as_measured(spiral: Log, tmp_path: Path) -> None:
+    track = [dataclasses.replace(spiral[name], origin="derived") for name in ("north", "east", "down")]
+    log = dataclasses.replace(spiral.with_channels(*track), origin="measured")
+    shown = panels(written(log, tmp_path))
+    assert {"DERIVED: track, north-east-down, m", "MEASURED: camera on the hull"} <= shown
 
 
 @pytest.mark.parametrize("name", ["spiral", "field", "depth_only"])
