@@ -4,14 +4,14 @@
     ├── InputError              a file or a value that cannot be used: file, what, where, what is allowed
     ├── OutputError             an output that cannot be written
     ├── NoSolutionError         a question that has no answer: the nearest point and what fails there
-    └── PinsError               exit 2: pins of a trim that are too few, dependent or contradictory
+    └── UsageError              exit 2: options that do not make a question, such as too few pins of a trim
 
 Solvers report their outcome as data; exceptions are for input that cannot be used and questions without an answer.
 """
 
 from __future__ import annotations
 
-__all__ = ["GliderError", "InputError", "NoSolutionError", "OutputError", "PinsError"]
+__all__ = ["GliderError", "InputError", "NoSolutionError", "OutputError", "UsageError"]
 
 
 class GliderError(Exception):
@@ -42,7 +42,7 @@ class NoSolutionError(GliderError):
     """A well-posed question that the model answers with "there is none"."""
 
 
-class PinsError(GliderError):
-    """Trim pins that do not determine a trim."""
+class UsageError(GliderError):
+    """Options that do not make a question; the message says what would."""
 
     exit_code = 2

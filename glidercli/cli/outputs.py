@@ -6,9 +6,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-import typer
-
 from glidercli.cli.printing import say
+from glidercli.errors import UsageError
 from glidercli.log import Log
 
 __all__ = ["check_log_outputs", "write_log"]
@@ -22,7 +21,7 @@ def check_log_outputs(paths: Sequence[Path], force: bool, json: bool) -> None:
     from glidercli.logio import SUFFIXES
 
     if json and _STDOUT in paths:
-        raise typer.BadParameter("-o - and --json both want stdout; leave one out")
+        raise UsageError("-o - and --json both want stdout; leave one out")
     check_outputs(paths, SUFFIXES, force)
 
 

@@ -41,15 +41,17 @@ def trim(
 ) -> None:
     """Steady flight: a straight glide or a spiral, from net buoyancy, mass position and mass rotation."""
     from glidercli.cli.printing import json_text, warn
-    from glidercli.errors import PinsError
+    from glidercli.errors import UsageError
     from glidercli.files import check_outputs
     from glidercli.trim import trim as solve
 
     pins = {"net-buoyancy": net_buoyancy, "mass-position": mass_position, "mass-rotation": mass_rotation}
     missing = [f"--{name}" for name, value in pins.items() if value is None]
     if net_buoyancy is None or mass_position is None or mass_rotation is None:
-        raise PinsError(f"too few pins: {' and '.join(missing)} would complete the trim")
+        raise UsageError(f"too few pins: {' and '.join(missing)} would complete the trim")
     outputs = output or []
+    if json and Path("-") in outputs:
+        raise UsageError("-o - and --json both want stdout; leave one out")
     check_outputs(outputs, (".json", ".csv"), force)
     found = solve(
         vehicle,

@@ -117,7 +117,7 @@ def _drawn(comparison: Comparison) -> Figure:
             lowest.append(axes)
         _curves(axes, comparison, name, zero, scale)
         main[name] = axes
-    since = "the measured log's first sample" if measured is not None else "the first sample"
+    since = "the first log's first sample" if measured is not None else "the first sample"
     if measured is not None:
         for axes in lowest:
             axes.set_xlim(_span(comparison, measured, names, zero, scale))

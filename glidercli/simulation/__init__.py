@@ -8,7 +8,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from glidercli.errors import InputError
+from glidercli.errors import InputError, UsageError
 from glidercli.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -94,6 +94,8 @@ def simulate(
     ------
     InputError
         An input that cannot be used, or a vehicle that would only float.
+    UsageError
+        Neither a mission nor all three controls, or both.
     NoSolutionError
         The motion cannot be integrated.
     """
@@ -211,13 +213,13 @@ def _legs(
     if plan:
         extra = [name for name, value in given.items() if value is not None]
         if extra:
-            raise InputError(plan.name, f"the mission sets the controls; {', '.join(extra)} cannot be given beside it")
+            raise UsageError(f"mission {plan.name} sets the controls; {', '.join(extra)} cannot be given beside it")
         files = [beside / leg.controls for leg in plan.leg]
         legs = [read_schedule(f, leg.name, leg.until_depth_m) for f, leg in zip(files, plan.leg, strict=True)]
         return legs, files
     if mass_position is None or mass_rotation is None or net_buoyancy is None:
         missing = [name for name, value in given.items() if value is None]
-        raise InputError("controls", f"{', '.join(missing)} missing; give all three or a mission")
+        raise UsageError(f"{', '.join(missing)} missing; give all three controls or a mission")
     return [held(mass_position, mass_rotation, net_buoyancy)], []
 
 
