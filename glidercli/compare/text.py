@@ -27,7 +27,10 @@ def _run(comparison: Comparison, run: Run) -> list[str]:
         return _facts(comparison, comparison.against, run)
     clock = run.alignment
     shift = f"clock of {run.side.name} shifted by {clock.shift:.3f} s (align {clock.method})" if clock else ""
-    lines = [f"Compared {run.side} with {comparison.measured}; {shift}.", f"Errors are {run.side.name} less {comparison.measured.name}."]
+    lines = [
+        f"Compared {run.side} with {comparison.measured}; {shift}.",
+        f"Errors are {run.side.name} less {comparison.measured.name}.",
+    ]
     for title, rows in (("flight", run.channels), *run.by_phase.items()):
         if rows:
             lines += ["", f"{title}:", *_table(_ERRORS, [_row(name, errors) for name, errors in rows.items()], 2)]
