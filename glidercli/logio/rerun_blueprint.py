@@ -1,4 +1,4 @@
-"""How does a Log look in the Rerun viewer? Panels, colours, cameras and the about page; and how its bytes are settled.
+"""How does a Log look in the Rerun viewer? Panels, colours and cameras; and how its bytes are settled.
 
 Rerun gives each chunk, row, panel and store an id made from clock and chance. `identified`, `Settled` and `settle` make
 them from the content instead, so that the same Log gives the same bytes.
@@ -6,7 +6,6 @@ them from the content instead, so that the same Log gives the same bytes.
 
 from __future__ import annotations
 
-import json
 import re
 import struct
 import uuid
@@ -23,14 +22,14 @@ from glidercli.log import Log
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
-__all__ = ["COLOURS", "PHASE_COLOURS", "Settled", "about", "hull_size", "identified", "row", "series_name", "settle"]
+__all__ = ["COLOURS", "PHASE_COLOURS", "Settled", "hull_size", "identified", "number", "row", "series_name", "settle"]
 
 Array = NDArray[np.float64]
 Colour = tuple[int, int, int]
 
 BLUE, ORANGE, GREEN, RED = (86, 164, 255), (255, 158, 74), (110, 205, 130), (240, 98, 98)
 VIOLET, GOLD, GREY, TEAL = (184, 140, 255), (240, 208, 90), (170, 178, 190), (90, 225, 205)
-SEA, SEA_LINES, HULL, FINS = (70, 150, 210, 36), (110, 180, 230, 90), (250, 205, 70, 80), (236, 120, 50, 255)
+SEA, SEA_LINES, HULL, FINS = (70, 150, 210, 36), (110, 180, 230, 90), (250, 205, 70, 45), (236, 120, 50, 255)
 
 PHASE_COLOURS: dict[str, Colour] = {"surface": GREEN, "dive": BLUE, "climb": ORANGE, "hover": VIOLET}
 
@@ -62,13 +61,6 @@ PLOTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
 
 COLOURS = {name: colour for *_, names in PLOTS for name, colour in zip(names, (BLUE, ORANGE, GREEN), strict=False)}
 
-ORIGINS = {
-    "simulated": "Computed by a model. Nothing here was measured.",
-    "measured": "Recorded by an instrument at sea. Channels that were computed from it are named below.",
-    "reconstruction": "Rebuilt from published values. It is not a recording.",
-    "derived": "Computed from measured channels.",
-}
-
 
 def series_name(channel: str) -> str:
     """Name of a channel's line in a plot, with the unit that it is drawn in."""
@@ -78,13 +70,22 @@ def series_name(channel: str) -> str:
 
 def hull_size(log: Log) -> tuple[float, float, bool]:
     """Length and diameter of the hull, m, and whether they are the vehicle's own (metadata) or only a stand-in."""
-    try:
-        return float(log.metadata["hull_length_m"]), float(log.metadata["hull_diameter_m"]), True
-    except (KeyError, ValueError):
+    length, diameter = number(log, "hull_length_m"), number(log, "hull_diameter_m")
+    if length is None or diameter is None or not length > diameter > 0:
         return 2.0, 0.22, False
+    return length, diameter, True
 
 
-def _blueprint(log: Log, bounds: Array | None, has_hull: bool, has_plan: bool) -> Any:
+def number(log: Log, key: str) -> float | None:
+    """A number told by the log's metadata, or None where it is missing, not finite or no number."""
+    try:
+        value = float(log.metadata[key])
+    except (KeyError, ValueError):
+        return None
+    return value if np.isfinite(value) else None
+
+
+def _blueprint(log: Log, camera: tuple[Array, Array] | None, has_hull: bool, has_plan: bool) -> Any:
     """The rerun Blueprint of a log: 3-D on the left, flight plots in the middle, tabs with the rest on the right."""
     import rerun.blueprint as rrb
 
@@ -97,16 +98,15 @@ def _blueprint(log: Log, bounds: Array | None, has_hull: bool, has_plan: bool) -
         return rrb.Spatial3DView(origin="/world", contents=contents.split(", "), name=name, **style)
 
     left: list[Any] = []
-    if bounds is not None:
-        middle, size = bounds.mean(axis=0), float(np.linalg.norm((bounds[1] - bounds[0]) * [1.45, 1.45, 1.0]))
+    if camera is not None:
         contents = "+ /world/**, - /world/vehicle/compass/**, - /world/vehicle/body/**"
-        eye = middle + size * np.array([-0.62, -0.62, -0.72])
-        left.append(space(named("north", "track, north-east-down, m"), contents, position=eye, look_target=middle))
+        title = named("north", "track, north-east-down, m")
+        left.append(space(title, contents, position=camera[0], look_target=camera[1]))
     if has_hull:
         length, _, own = hull_size(log)
         contents = "+ /world/vehicle/**, + /world/track, - /world/vehicle/marker"
         title = named("heading", "camera on the hull" + ("" if own else " (not to scale)"))
-        eye, hull = (1.0 if left else 1.6) * length * np.array([-0.8, 0.77, -0.5]), "/world/vehicle/body/hull"
+        eye, hull = (1.0 if left else 1.6) * length * np.array([-0.72, 0.74, -0.7]), "/world/vehicle/body/hull"
         left.append(space(title, contents, position=eye, look_target=(0, 0, 0), tracking_entity=hull))
     tabs: dict[str, list[Any]] = {}
     for tab, title, names in PLOTS:
@@ -145,33 +145,6 @@ def _plot(title: str, channels: list[str]) -> Any:
     return rrb.TimeSeriesView(origin="/", contents=contents, name=title, axis_x=axis, plot_legend=legend)
 
 
-def about(log: Log, notes: list[str]) -> str:
-    """The about page, Markdown: where the values come from, how they are drawn, metadata, provenance."""
-    lines = [f"# {log.kind}", "", ORIGINS[log.origin], ""]
-    others: dict[str, list[str]] = {}
-    for channel in log.channels.values():
-        if channel.origin != log.origin:
-            others.setdefault(channel.origin, []).append(channel.name)
-    lines += [f"- **{origin}**: {', '.join(names)}" for origin, names in others.items()]
-    lines += ["", "## How it is drawn", "", *(f"- {note}" for note in notes)]
-    told = {key: value for key, value in log.metadata.items() if key != "provenance"}
-    record = json.loads(log.metadata.get("provenance", "{}"))
-    for title, entries in (("Metadata", told), ("Provenance", record)):
-        lines += ["", f"## {title}", "", *_table(entries)] if entries else []
-    return "\n".join(lines) + "\n"
-
-
-def _table(entries: dict[str, Any]) -> list[str]:
-    """A Markdown table of keys and values; a list of inputs becomes one row each."""
-    rows = ["| what | value |", "|---|---|"]
-    for key, value in entries.items():
-        for one in value if isinstance(value, list) and key != "command" else [value]:
-            words = [f"{k} {v}" for k, v in one.items()] if isinstance(one, dict) else one
-            text = " ".join(map(str, words)) if isinstance(words, list) else str(words)
-            rows.append(f"| {key} | {text.replace('|', chr(92) + '|').replace(chr(10), ' ')} |")
-    return rows
-
-
 def row(entity: str, *archetypes: Any, times: Iterable[Any] = ()) -> Chunk:
     """One row of one entity; without times it holds for the whole recording."""
     from rerun.chunk import Chunk
@@ -198,12 +171,12 @@ def identified(chunks: Iterable[Chunk], key: str) -> Iterator[Chunk]:
 class Settled:
     """The blueprint of a log with ids made from the content (key, a hash); it serves where rerun takes a blueprint.
 
-    bounds : (2, 3) least and greatest corner of the track in NED, m; None without a track.
+    camera : eye and target of the view of the whole track, NED, m; None without a track.
     has_hull, has_plan : whether the attitude is known, and anything to show from above.
     """
 
-    def __init__(self, log: Log, bounds: Array | None, has_hull: bool, has_plan: bool, key: str) -> None:
-        self.views, self.key = _blueprint(log, bounds, has_hull, has_plan), key
+    def __init__(self, log: Log, camera: tuple[Array, Array] | None, has_hull: bool, has_plan: bool, key: str) -> None:
+        self.views, self.key = _blueprint(log, camera, has_hull, has_plan), key
         self.chunks: list[Chunk] = []
         self._name(self.views.root_container, key)
 

@@ -3,31 +3,31 @@
 from __future__ import annotations
 
 import hashlib
-import itertools
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import OutputError
-from glidercli.frames import quaternion_from_euler_arrays
 from glidercli.log import Log
 from glidercli.logio import rerun_blueprint as look
+from glidercli.logio.rerun_scene import Scene, columns
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
 __all__ = ["write_rerun"]
 
-Array = NDArray[np.float64]
-Times = NDArray[np.int64]
-
-MASS_RADIUS = 5 * 0.014  # m, offset of the movable mass from the axis, Rr = 0.014 m drawn five times larger
-ARROWS = 30  # depth bins with one current arrow each
+ORIGINS = {
+    "simulated": "Computed by a model. Nothing here was measured.",
+    "measured": "Recorded by an instrument at sea. Channels that were computed from it are named below.",
+    "reconstruction": "Rebuilt from published values. It is not a recording.",
+    "derived": "Computed from measured channels.",
+}
 
 
 def write_rerun(log: Log, path: Path) -> None:
@@ -43,10 +43,10 @@ def write_rerun(log: Log, path: Path) -> None:
     if not log.channels:
         raise OutputError(path, "not written: the log holds no sample")
     rr.set_strict_mode(True)
-    digest, scene = _digest(log), _Scene(log)
-    page = rr.TextDocument(look.about(log, scene.draw()), media_type=rr.MediaType.MARKDOWN)
+    digest, scene = _digest(log), Scene(log)
+    page = rr.TextDocument(_about(log, scene.draw()), media_type=rr.MediaType.MARKDOWN)
     chunks = [*_header(log), *_plots(log), *scene.chunks, look.row("/about", page)]
-    blueprint: Any = look.Settled(log, scene.bounds, scene.has_hull, scene.has_plan, digest)
+    blueprint: Any = look.Settled(log, scene.camera, scene.has_hull, scene.has_plan, digest)
     recording = rr.RecordingStream("glider", recording_id=digest[:32], send_properties=False)
     recording.set_log_time_enabled(False)
     recording.save(path, default_blueprint=blueprint)
@@ -57,23 +57,13 @@ def write_rerun(log: Log, path: Path) -> None:
 
 
 def _digest(log: Log) -> str:
-    """SHA-256 of all that a log holds, hexadecimal."""
-    told = [log.origin, sorted(log.metadata.items()), [(e.name, e.time_ns, e.depth) for e in log.events]]
+    """SHA-256 of all that a log holds, hexadecimal; the order of channels does not count."""
+    told = [log.origin, [*log.metadata.items()], [(e.name, e.time_ns, e.depth) for e in log.events]]
     whole = hashlib.sha256(json.dumps(told).encode())
     for name, channel in sorted(log.channels.items()):
         whole.update(f"{name} {channel.origin} {len(channel)} ".encode())
         whole.update(channel.time_ns.tobytes() + channel.values.tobytes())
     return whole.hexdigest()
-
-
-def _columns(entity: str, start_ns: int, time_ns: Times, columns: Any) -> Chunk:
-    """Values of one entity over time, on both timelines."""
-    import rerun as rr
-    from rerun.chunk import Chunk
-
-    utc = rr.TimeColumn("utc", timestamp=time_ns.astype("datetime64[ns]"))
-    elapsed = rr.TimeColumn("elapsed", duration=(time_ns - start_ns).astype("timedelta64[ns]"))
-    return Chunk.from_columns(entity, [utc, elapsed], columns)
 
 
 def _header(log: Log) -> Iterator[Chunk]:
@@ -85,7 +75,7 @@ def _header(log: Log) -> Iterator[Chunk]:
     if log.events:
         texts = [e.name if e.depth is None else f"{e.name}, depth {e.depth:.1f} m" for e in log.events]
         times = np.array([e.time_ns for e in log.events], dtype=np.int64)
-        yield _columns("/events", log.start_ns, times, rr.TextLog.columns(text=texts, level=["INFO"] * len(texts)))
+        yield columns("/events", log.start_ns, times, rr.TextLog.columns(text=texts, level=["INFO"] * len(texts)))
 
 
 def _plots(log: Log) -> Iterator[Chunk]:
@@ -98,7 +88,7 @@ def _plots(log: Log) -> Iterator[Chunk]:
             yield look.row(entity, rr.StateConfiguration(values=PHASES, colors=[*look.PHASE_COLOURS.values()]))
             changed = np.flatnonzero(np.diff(channel.values, prepend=-1.0))
             states = rr.StateChange.columns(state=[PHASES[int(value)] for value in channel.values[changed]])
-            yield _columns(entity, log.start_ns, channel.time_ns[changed], states)
+            yield columns(entity, log.start_ns, channel.time_ns[changed], states)
             continue
         style: dict[str, Any] = {"names": look.series_name(name), "colors": look.COLOURS.get(name, look.GREY)}
         dots = name == "heading"
@@ -106,194 +96,44 @@ def _plots(log: Log) -> Iterator[Chunk]:
             entity, rr.SeriesPoints(marker_sizes=1.5, **style) if dots else rr.SeriesLines(widths=1.5, **style)
         )
         values = channel.values * (-1.0 if name == "depth" else spec.factor)
-        yield _columns(entity, log.start_ns, channel.time_ns, rr.Scalars.columns(scalars=values))
+        yield columns(entity, log.start_ns, channel.time_ns, rr.Scalars.columns(scalars=values))
 
 
-def _together(log: Log, *names: str) -> tuple[Times, list[Array]]:
-    """The times at which all these channels have a sample, and their values there; nothing if one is missing."""
-    if not all(name in log for name in names):
-        return np.array([], np.int64), [np.array([])] * len(names)
-    times = log[names[0]].time_ns
-    for name in names[1:]:
-        times = np.intersect1d(times, log[name].time_ns)
-    return times, [log[name].values[np.searchsorted(log[name].time_ns, times)] for name in names]
+def _about(log: Log, notes: list[str]) -> str:
+    """The about page, Markdown: where the values come from, how they are drawn, metadata, provenance."""
+    lines = [f"# {log.kind}", "", ORIGINS[log.origin], ""]
+    told = {key: value for key, value in log.metadata.items() if key != "provenance"}
+    if remade := told.pop("reconstruction", ""):
+        lines += [f"**Reconstruction**: {_plain(remade)}", ""]
+    others: dict[str, list[str]] = {}
+    for name in (name for name in CHANNELS if name in log):
+        if log[name].origin != log.origin:
+            others.setdefault(log[name].origin, []).append(name.replace("_", " "))
+    lines += [f"- **{origin}**: {', '.join(names)}" for origin, names in others.items()]
+    lines += ["", "## How it is drawn", "", *(f"- {note}" for note in notes)]
+    for title, entries in (("Metadata", told), ("Provenance", _record(log))):
+        lines += ["", f"## {title}", "", *_entries(entries)] if entries else []
+    return "\n".join(lines) + "\n"
 
 
-class _Scene:
-    """Everything under /world (NED, m) and /plan (the same from above), as chunks."""
+def _record(log: Log) -> dict[str, Any]:
+    """The provenance as a dictionary; a record that is no JSON object stands as it is, under "record"."""
+    text = log.metadata.get("provenance", "{}")
+    try:
+        record = json.loads(text)
+    except ValueError:
+        record = text
+    return record if isinstance(record, dict) else {"record": text}
 
-    def __init__(self, log: Log) -> None:
-        self.log = log
-        self.chunks: list[Chunk] = []
-        self.times, track = _together(log, "north", "east", "down" if "down" in log else "depth")
-        self.track = np.stack(track, axis=-1)
-        self.attitude_times, self.attitude = _together(log, "roll", "pitch", "heading")
-        self.fixes = self._fixes()
-        self.has_hull, self.has_plan = len(self.attitude_times) > 0, len(self.times) > 1 or len(self.fixes) > 0
-        self.bounds: Array | None = None
-        if len(self.times) > 1:
-            self.bounds = np.stack([np.minimum(self.track.min(axis=0), [np.inf, np.inf, 0]), self.track.max(axis=0)])
-            self.size = max(float(np.linalg.norm(self.bounds[1] - self.bounds[0])), 1.0)
 
-    def draw(self) -> list[str]:
-        """Draw all that the log has the channels for; returns what a reader of the pictures should know."""
-        import rerun as rr
+def _entries(entries: dict[str, Any]) -> Iterator[str]:
+    """A Markdown list of keys and values, which wraps where a table would be cut off; an item each of many inputs."""
+    for key, value in entries.items():
+        for one in value if isinstance(value, list) and key != "command" else [value]:
+            words = [f"{k} {v}" for k, v in one.items()] if isinstance(one, dict) else one
+            yield f"- **{_plain(key)}**: {_plain(' '.join(map(str, words)) if isinstance(words, list) else str(words))}"
 
-        notes = ["Depth is plotted negative down; plots join samples by straight lines."]
-        self._add("/world", rr.ViewCoordinates.FRD)
-        if self.bounds is not None:
-            notes += [*self._draw_track(), self._draw_surface(self.bounds), *self._draw_current()]
-        elif self.has_hull:
-            notes.append("The log has no track: the hull turns in one place.")
-        if len(self.fixes):
-            self._points("fixes", self.fixes, radii=rr.Radius.ui_points(4), colors=look.VIOLET)
-            notes.append(f"Violet points at the surface: {len(self.fixes)} recorded positions.")
-        return notes + self._draw_hull() if self.has_hull else notes
 
-    def _add(self, entity: str, *archetypes: Any) -> None:
-        self.chunks.append(look.row(entity, *archetypes))
-
-    def _points(self, name: str, places: Array, **style: Any) -> None:
-        """The same points in /world and, seen from above (east right, north up), in /plan."""
-        import rerun as rr
-
-        self._add(f"/world/{name}", rr.Points3D(places, **style))
-        self._add(f"/plan/{name}", rr.Points2D(places[:, 1::-1] * [1, -1], **style))
-
-    def _over_time(self, entity: str, times: Times, columns: Any) -> None:
-        self.chunks.append(_columns(entity, self.log.start_ns, times, columns))
-
-    def _fixes(self) -> Array:
-        """Recorded positions at the surface in NED about the log's origin, m; none where they cannot be placed."""
-        _, (latitude, longitude) = _together(self.log, "latitude", "longitude")
-        told = [self.log.metadata.get(f"origin_{name}_deg") for name in ("latitude", "longitude")]
-        unplaced = None in told and len(self.times)
-        if unplaced or not len(latitude) or self.log["latitude"].origin != "measured":
-            return np.empty((0, 3))
-        from pymap3d import geodetic2ned
-
-        origin = [float(value or first) for value, first in zip(told, (latitude[0], longitude[0]), strict=True)]
-        north, east, _ = geodetic2ned(latitude, longitude, 0.0, *origin, 0.0)
-        return np.stack([north, east, np.zeros_like(north)], axis=-1)
-
-    def _draw_track(self) -> list[str]:
-        """The track in the colours of its phases, or of depth; its ends; a marker at the vehicle's place."""
-        import rerun as rr
-
-        codes, colours, note = self._track_colours()
-        edges = [0, *(np.flatnonzero(np.diff(codes)) + 1), len(codes) - 1]
-        pieces = [(a, b) for a, b in itertools.pairwise(edges) if b > a]
-        strips, paint = [self.track[a : b + 1] for a, b in pieces], [colours[codes[a]] for a, _ in pieces]
-        style: dict[str, Any] = {"colors": paint, "radii": rr.Radius.ui_points(1.2)}
-        self._add("/world/track", rr.LineStrips3D(strips, **style))
-        self._add("/plan/track", rr.LineStrips2D([strip[:, 1::-1] * [1, -1] for strip in strips], **style))
-        near = np.linalg.norm(self.track[0] - self.track[-1]) < 0.25 * self.size
-        ends = {"labels": ["start", "" if near else "end"], "colors": [look.GREEN, look.RED]}
-        self._points("ends", self.track[[0, -1]], radii=rr.Radius.ui_points(5), **ends)
-        self._over_time("/world/vehicle", self.times, rr.Transform3D.columns(translation=self.track))
-        marker: dict[str, Any] = {"radii": rr.Radius.ui_points(7), "colors": look.GOLD}
-        self._add("/world/vehicle/marker", rr.Points3D([[0, 0, 0]], **marker))
-        self._over_time("/plan/vehicle", self.times, rr.Points2D.columns(positions=self.track[:, 1::-1] * [1, -1]))
-        self._add("/plan/vehicle", rr.Points2D.from_fields(**marker))
-        return [f"{note} It starts at the green point and ends at the red one."]
-
-    def _track_colours(self) -> tuple[NDArray[np.int64], list[look.Colour], str]:
-        """A colour code for each point of the track, the colours, and what they mean."""
-        phases = self.log.channels.get("phase")
-        if phases is not None:
-            at = np.maximum(np.searchsorted(phases.time_ns, self.times, side="right") - 1, 0)
-            meaning = "Track: dive blue, climb orange, surface green, hover violet."
-            return phases.values[at].astype(np.int64), [*look.PHASE_COLOURS.values()], meaning
-        deepest = max(float(self.track[:, 2].max()), 1.0)
-        colours = [(200 - 4 * i, 240 - 6 * i, 245 - 2 * i) for i in range(32)]
-        meaning = f"Track coloured by depth, light at the surface, dark at {deepest:.0f} m."
-        return np.clip(self.track[:, 2] / deepest * 31, 0, 31).astype(np.int64), colours, meaning
-
-    def _draw_surface(self, bounds: Array) -> str:
-        """The sea surface over the track, translucent, with a grid."""
-        import rerun as rr
-
-        middle, extent = bounds.mean(axis=0)[:2], bounds[1] - bounds[0]
-        side = np.maximum(np.maximum(1.3 * extent[:2], 0.5 * extent.max()) / 2, 1.0)
-        power = 10.0 ** np.floor(np.log10(side.max() / 2))
-        spacing = float(power * max(step for step in (1, 2, 5) if step * power <= side.max() / 2))
-        south, west = np.floor((middle - side) / spacing) * spacing
-        north, east = np.ceil((middle + side) / spacing) * spacing
-        corners = [(south, west, 0), (north, west, 0), (north, east, 0), (south, east, 0)]
-        plane = dict[str, Any](vertex_positions=corners, triangle_indices=[[0, 1, 2], [0, 2, 3]])
-        self._add("/world/surface", rr.Mesh3D(albedo_factor=look.SEA, **plane))
-        lines = [[(n, west, 0), (n, east, 0)] for n in np.arange(south, north + spacing / 2, spacing)]
-        lines += [[(south, e, 0), (north, e, 0)] for e in np.arange(west, east + spacing / 2, spacing)]
-        self._add("/world/surface/grid", rr.LineStrips3D(lines, colors=look.SEA_LINES, radii=rr.Radius.ui_points(0.5)))
-        return f"The sea surface carries a grid of {spacing:g} m."
-
-    def _draw_current(self) -> list[str]:
-        """One arrow in each of the depth bins, at the track's nearest point in time."""
-        import rerun as rr
-
-        times, (north, east) = _together(self.log, "current_north", "current_east")
-        if not len(times):
-            return []
-        up = self.log.channels.get("current_up")
-        down = -np.interp(times, up.time_ns, up.values) if up is not None else np.zeros(len(times))
-        right = np.clip(np.searchsorted(self.times, times), 1, len(self.times) - 1)
-        origins = self.track[right - (times - self.times[right - 1] < self.times[right] - times)]
-        _, kept = np.unique((origins[:, 2] / max(origins[:, 2].max(), 1e-9) * ARROWS).astype(int), return_index=True)
-        vectors = np.stack([north, east, down], axis=-1)[kept]
-        fastest = float(np.linalg.norm(vectors, axis=1).max())
-        vectors *= 0.2 * self.size / max(fastest, 1e-9)
-        places = dict[str, Any](vectors=vectors, origins=origins[kept], radii=rr.Radius.ui_points(1.5))
-        self._add("/world/current", rr.Arrows3D(colors=look.TEAL, **places))
-        return [f"Teal arrows: current, one in each of {ARROWS} depth bins; the longest is {fastest:.2f} m/s."]
-
-    def _draw_hull(self) -> list[str]:
-        """Hull, wings, tail and movable mass in the body frame, and a compass that stays level."""
-        import rerun as rr
-
-        length, diameter, own = look.hull_size(self.log)
-        half, body = diameter / 2, "/world/vehicle/body"
-        turn = quaternion_from_euler_arrays(*self.attitude)[:, [1, 2, 3, 0]]
-        self._over_time(body, self.attitude_times, rr.Transform3D.columns(quaternion=turn))
-        place: dict[str, Any] = {"translations": [[half - length / 2, 0, 0]], "fill_mode": "solid"}
-        place["rotation_axis_angles"] = rr.RotationAxisAngle(axis=[0, 1, 0], degrees=90)
-        self._add(f"{body}/hull", rr.Capsules3D(lengths=length - diameter, radii=half, colors=look.HULL, **place))
-        tip, top = half + 0.3 * length, -1.3 * diameter
-        wing = [(0.05, half, 0), (-0.10, half, 0), (-0.20, tip, 0), (-0.14, tip, 0)]
-        fin = [(-0.34, 0, 0), (-0.48, 0, 0), (-0.54, 0, top), (-0.46, 0, top)]
-        corners = np.array([*wing, *((x, -y, z) for x, y, z in wing), *fin], dtype=float) * [length, 1, 1]
-        triangles = [(base, base + i, base + i + 1) for base in (0, 4, 8) for i in (1, 2)]
-        mesh = dict[str, Any](vertex_positions=corners, triangle_indices=triangles)
-        self._add(f"{body}/fins", rr.Mesh3D(albedo_factor=look.FINS, **mesh))
-        angle = np.linspace(0.0, 2 * np.pi, 73)
-        ring = np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=-1) * 0.62 * length
-        ticks = [np.stack([point, 1.06 * point]) for point in ring[:-1:6]]
-        style = dict[str, Any](colors=look.GREY, radii=rr.Radius.ui_points(0.7))
-        self._add("/world/vehicle/compass", rr.LineStrips3D([ring, *ticks], **style))
-        self._add(
-            "/world/vehicle/compass/names",
-            rr.Points3D(1.15 * ring[:-1:18], labels=list("NESW"), show_labels=True, **style),
-        )
-        doubt = "" if own else " NOT TO SCALE: the log does not say the vehicle's size."
-        note = f"Hull drawn {length:g} m x {diameter:g} m; wings and tail are only a sketch.{doubt}"
-        moves = {"mass_position", "mass_rotation"} & self.log.channels.keys()
-        return [note, *(self._draw_mass(f"{body}/slide", length, diameter) if moves else [])]
-
-    def _draw_mass(self, entity: str, length: float, diameter: float) -> list[str]:
-        """The movable mass at (r_rx, -Rr sin gamma, Rr cos gamma): one frame slides, one inside it turns."""
-        import rerun as rr
-
-        slide, turn = self.log.channels.get("mass_position"), self.log.channels.get("mass_rotation")
-        notes = ["Red: the movable mass. Its distance from the axis, 0.014 m, is drawn five times larger."]
-        if slide is not None:
-            zero = 0.0
-            if "mass_position_zero" in self.log.metadata:
-                zero = 0.5 * (slide.values.min() + slide.values.max())
-                notes.append("Its actuator has a zero of its own: it is drawn about the middle of its range.")
-            places = np.outer(slide.values - zero, [1, 0, 0])
-            self._over_time(entity, slide.time_ns, rr.Transform3D.columns(translation=places))
-        if turn is not None:
-            spin = np.outer(np.sin(turn.values / 2), [1, 0, 0, 0]) + np.outer(np.cos(turn.values / 2), [0, 0, 0, 1])
-            self._over_time(f"{entity}/turn", turn.time_ns, rr.Transform3D.columns(quaternion=spin))
-        size = dict[str, Any](half_sizes=[[0.08 * length, 0.17 * diameter, 0.17 * diameter]], fill_mode="solid")
-        self._add(f"{entity}/turn/mass", rr.Ellipsoids3D(centers=[[0, 0, MASS_RADIUS]], colors=look.RED, **size))
-        return notes
+def _plain(text: str) -> str:
+    """Text as it stands, on one line, whatever Markdown would make of its signs."""
+    return re.sub(r"([\\`*_<>|\[\]#~])", r"\\\1", " ".join(text.split()))

@@ -42,7 +42,10 @@ def spiral() -> Log:
         "current_east": 0.06 * np.exp(-depth / 200.0), "current_north": 0.02, "speed_through_water": 0.5,
         "phase": np.where(side > 0, 1.0, 2.0),
     }  # fmt: skip
-    metadata = {"hull_length_m": "1.99", "hull_diameter_m": "0.22", "provenance": '{"command": ["glider", "simulate"]}'}
+    metadata = {
+        "hull_length_m": "1.99", "hull_diameter_m": "0.22", "movable_nominal_position_m": "0.4",
+        "movable_eccentricity_m": "0.014", "provenance": '{"command": ["glider", "simulate"]}',
+    }  # fmt: skip
     events = (Event("apogee", START + 3000 * 10**9, 800.0), Event("surfacing", START + 5990 * 10**9))
     return log_of([channel(name, t, value) for name, value in values.items()], "simulated", metadata, events)
 
@@ -99,6 +102,19 @@ def panels(path: Path) -> set[str]:
     batches = [chunk.to_record_batch() for chunk in reader.stream(store=reader.blueprints()[0]).to_chunks()]
     column = "ViewBlueprint:display_name"
     return {batch.column(column).to_pylist()[0][0] for batch in batches if column in batch.schema.names}
+
+
+def sights(path: Path) -> list[Any]:
+    """From the eye of each three-dimensional view in the file's blueprint to the point that it looks at."""
+    from rerun.chunk import RrdReader
+
+    reader = RrdReader(path)
+    eyes = ("EyeControls3D:look_target", "EyeControls3D:position")
+    batches = [chunk.to_record_batch() for chunk in reader.stream(store=reader.blueprints()[0]).to_chunks()]
+    found = [
+        [batch.column(name).to_pylist()[0][0] for name in eyes] for batch in batches if eyes[1] in batch.schema.names
+    ]
+    return [np.subtract(*pair) for pair in found]
 
 
 def page(path: Path) -> str:
@@ -169,17 +185,36 @@ def test_attitude_stands_only_where_all_three_angles_do(field: Log, tmp_path: Pa
     np.testing.assert_array_equal(utc, field["pitch"].time_ns)
 
 
-def test_mass_with_a_zero_of_its_own_is_drawn_about_its_middle(spiral: Log, tmp_path: Path) -> None:
-    path = written(spiral.with_metadata(mass_position_zero="LinPos"), tmp_path)
+@pytest.mark.parametrize("told", [{"mass_position_zero": "LinPos"}, {"movable_nominal_position_m": "unknown"}])
+def test_mass_with_an_unknown_zero_is_drawn_about_its_middle(spiral: Log, told: dict[str, str], tmp_path: Path) -> None:
+    path = written(spiral.with_metadata(**told), tmp_path)
     _, _, slides = rows(path, "/world/vehicle/body/slide", "Transform3D:translation")
     forward = np.squeeze(slides)[:, 0]
     assert (forward.min(), forward.max()) == pytest.approx((-0.03, 0.03), abs=1e-6)  # float32
-    assert "zero of its own" in page(path)
+    assert "about the middle of its range" in page(path)
+
+
+def test_mass_is_said_to_be_exaggerated_only_by_what_the_log_tells(spiral: Log, tmp_path: Path) -> None:
+    assert "0.070 m for a true 0.014 m" in page(written(spiral, tmp_path))
+    other = dataclasses.replace(spiral, metadata={})
+    assert "drawn not to scale: it is unknown" in page(written(other, tmp_path))
+
+
+def test_camera_sees_a_long_track_from_its_side(spiral: Log, tmp_path: Path) -> None:
+    along = np.linspace(0.0, 3000.0, len(spiral["north"]))
+    north, east = (dataclasses.replace(spiral[name], values=along) for name in ("north", "east"))
+    path = written(spiral.with_channels(north, east), tmp_path)
+    sight = max(sights(path), key=np.linalg.norm)  # the other one is that on the hull
+    level = sight[:2] / np.linalg.norm(sight[:2])
+    assert abs(level @ [0.5**0.5, 0.5**0.5]) < 0.5  # at least 60 deg off the track
+    assert level[0] > 0.0  # from the south
+    assert sight[2] > 0.0  # from above
 
 
 @pytest.mark.parametrize("name", ["spiral", "field", "depth_only"])
 def test_same_log_gives_the_same_bytes(name: str, request: pytest.FixtureRequest, tmp_path: Path) -> None:
     log = request.getfixturevalue(name)
+    log = log.with_channels(*(channel(kind, [0.0, 5.0], 1.0, "derived") for kind in ("density", "salinity")))
     backwards = Log(dict(reversed(log.channels.items())), log.origin, log.metadata, log.events)
     once = written(log, tmp_path, "a.rrd").read_bytes()
     assert once == written(log, tmp_path, "b.rrd").read_bytes()
@@ -221,12 +256,24 @@ def test_origin_stands_at_the_top_of_the_page(name: str, request: pytest.Fixture
 
 def test_page_tells_provenance_metadata_and_derived_channels(field: Log, spiral: Log, tmp_path: Path) -> None:
     text = page(written(spiral, tmp_path))
-    assert "| command | glider simulate |" in text
-    assert "five times larger" in text
+    assert "- **command**: glider simulate\n" in text
     path = written(field.with_channels(channel("density", [0.0, 1.0], 1025.0, "derived")), tmp_path)
     text = page(path)
     assert "- **derived**: density\n" in text
-    assert "| platform | test \\| glider |" in text
+    assert "- **platform**: test \\| glider\n" in text
+    assert "NOT TO SCALE" in text
+
+
+def test_reconstruction_is_told_before_anything_else(spiral: Log, tmp_path: Path) -> None:
+    text = page(written(spiral.with_metadata(reconstruction="water as in fig. 11"), tmp_path))
+    assert text.startswith("# SIMULATED FROM A RECONSTRUCTION\n")
+    assert text.index("**Reconstruction**: water as in fig. 11") < text.index("## ")
+
+
+def test_metadata_that_cannot_be_understood_are_shown_as_they_stand(field: Log, tmp_path: Path) -> None:
+    told = {"provenance": "by hand", "origin_latitude_deg": "?", "hull_length_m": "long", "hull_diameter_m": "nan"}
+    text = page(written(field.with_metadata(**told), tmp_path))
+    assert "- **record**: by hand\n" in text
     assert "NOT TO SCALE" in text
 
 
