@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -27,18 +28,13 @@ def replay(
     """Recorded field logs: what they hold, and into MCAP, Rerun and CSV."""
     from glidercli.cli.outputs import check_log_outputs, write_log
     from glidercli.cli.printing import json_text, say, warn
-    from glidercli.errors import InputError
     from glidercli.logio import replay as play
 
     outputs = output or []
     check_log_outputs(outputs, force, json)
     stdout = Path("-") in outputs
-    if strict:
-        checked = play(log, format=format)
-        if checked.broken:
-            raise InputError(checked.broken[0].path, f"{checked.broken[0].error} (--strict)")
     files = [path for path in outputs if path != Path("-")]
-    played = play(log, files, format=format, start=start, end=end, force=force)
+    played = play(log, files, format=format, start=start, end=end, strict=strict, force=force)
     warn((f"{report.path}: {report.error}" for report in played.broken), quiet)
     if stdout:
         write_log(played.log, [Path("-")], force, quiet)
@@ -47,19 +43,21 @@ def replay(
     if json:
         print(json_text(played.document()))
     elif not stdout:
-        print(_summary(played.document(), played.log.origin))
+        print("\n".join(_summary(played.document(), played.log.origin, played.log.metadata)))
 
 
-def _summary(d: dict[str, Any], origin: str) -> str:
-    """Files and channels for people."""
+def _summary(d: dict[str, Any], origin: str, metadata: Mapping[str, str]) -> list[str]:
+    """Files, channels and what to know of them, for people, a line each."""
     lines = [origin.upper(), f"{'file':<34} {'format':<12} {'records':>8} {'kept':>8}  dropped"]
     for f in d["files"]:
         gone = ", ".join(f"{item['count']} {item['reason']}" for item in f["dropped"]) or "none"
-        name, kind, gone = Path(f["path"]).name, f["format"] or "-", f.get("error", gone)
+        gone = "; ".join([f["error"], gone] if f["dropped"] else [f["error"]]) if "error" in f else gone
+        name, kind = Path(f["path"]).name, f["format"] or "-"
         lines.append(f"{name:<34} {kind:<12} {f['records']:>8} {f['kept']:>8}  {gone}")
-        lines += [f"    {warning}" for warning in f["warnings"]]
+        lines += [f"    {warning}" for warning in f["warnings"] if warning != f.get("error")]
     lines.append(f"{'channel':<30} {'samples':>8} {'minimum':>12} {'maximum':>12}  origin")
     for c in d["channels"]:
         low, high = (v if isinstance(v, str) else f"{v:.6g}" for v in (c["minimum"], c["maximum"]))
         lines.append(f"{c['name']:<30} {c['samples']:>8} {low:>12} {high:>12}  {c['origin']}")
-    return "\n".join(lines)
+    notes = {key: text for key, text in metadata.items() if key.endswith(("_note", "_zero"))}
+    return lines + [f"{key.replace('_', ' ')}: {text}" for key, text in notes.items()]

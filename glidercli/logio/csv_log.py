@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any, TextIO, get_args
 
 import numpy as np
 
 from glidercli.channels import by_column
 from glidercli.errors import InputError
-from glidercli.log import Event, Log
+from glidercli.log import Channel, Event, Log, Origin
 from glidercli.logio.report import FileReport
 
 __all__ = ["is_csv", "metadata_path", "read_csv", "write_csv", "write_csv_stream", "write_metadata"]
@@ -65,7 +65,9 @@ def is_csv(path: Path) -> bool:
 def read_csv(path: Path) -> tuple[Log, FileReport]:
     """A log from a CSV table with time_utc (or elapsed_s) and columns in the contract's names.
 
-    Raises InputError where a cell is no number or a time cannot be read or does not increase, naming the line.
+    Where its values come from is told by the metadata beside it, else by a column named origin; else they are taken as
+    measured, and the log's metadata say so. Raises InputError where a cell is no number or a time cannot be read or
+    does not increase, naming the line.
     """
     import pandas as pd
 
@@ -83,18 +85,52 @@ def read_csv(path: Path) -> tuple[Log, FileReport]:
             table[name] = text[name]
         else:
             table[name] = _numbers(path, str(name), text[name])
-    metadata: dict[str, Any] = {}
     beside = metadata_path(path)
-    if beside.is_file():
-        metadata = json.loads(beside.read_text(encoding="utf-8"))
+    metadata = _metadata(beside) if beside.is_file() else {}
+    warnings = [f"columns not known and not used: {', '.join(unknown)}"] if unknown else []
     told = {key: v if isinstance(v, str) else json.dumps(v) for key, v in metadata.get("metadata", {}).items()}
-    log = Log.from_table(table, metadata.get("origin", "measured"), told)
+    if "time_utc" not in text:
+        told["time_note"] = "the date is arbitrary: the table has elapsed_s alone"
+    if "origin" not in metadata and "origin" not in text:
+        told["origin_note"] = "taken as measured: the table does not say where its values come from"
+    origin = metadata.get("origin") or _origin(path, text, warnings)
+    log = Log.from_table(table, origin, told)
+    origins = metadata.get("channels", {})
+    channels = [Channel(c.name, c.time_ns, c.values, origins.get(c.name, origin)) for c in log.channels.values()]
     events = tuple(Event(e["name"], int(e["time_ns"]), e["depth_m"]) for e in metadata.get("events", []))
-    log = Log({n: c for n, c in log.channels.items() if len(c)}, log.origin, log.metadata, events)
+    log = Log({channel.name: channel for channel in channels if len(channel)}, origin, log.metadata, events)
     kept = int(table.drop(columns="time_utc").replace("", None).notna().any(axis=1).sum())
     dropped = (("no value", len(table) - kept),) if kept < len(table) else ()
-    warnings = (f"columns not known and not used: {', '.join(unknown)}",) if unknown else ()
-    return log, FileReport(path, "glider-csv", len(table), kept, dropped, warnings)
+    return log, FileReport(path, "glider-csv", len(table), kept, dropped, tuple(warnings))
+
+
+def _metadata(path: Path) -> dict[str, Any]:
+    """What `write_metadata` wrote; InputError where it is something else."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+        origins = [found["origin"], *found["channels"].values()]
+        told, events = found["metadata"], [(e["name"], int(e["time_ns"]), e["depth_m"]) for e in found["events"]]
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise InputError(path, f"is not the metadata of a log's CSV: {type(error).__name__} {error}") from None
+    if not isinstance(told, dict) or not isinstance(events, list) or not set(origins) <= set(get_args(Origin)):
+        raise InputError(path, f"is not the metadata of a log's CSV; origins are {', '.join(get_args(Origin))}")
+    return dict(found)
+
+
+def _origin(path: Path, text: Any, warnings: list[str]) -> Origin:
+    """Where the values come from, by the column named origin: the least that a row says."""
+    if "origin" not in text:
+        return "measured"
+    words = text["origin"].str.strip()
+    known: tuple[Origin, ...] = ("reconstruction", "simulated", "derived", "measured")  # the least first
+    bad = np.flatnonzero(~words.isin(known))
+    if len(bad):
+        row = int(bad[0])
+        raise InputError(path, f"line {row + 2}: origin = {words.iloc[row]!r}; allowed: {', '.join(known)}")
+    found = [word for word in known if (words == word).any()]
+    if len(found) > 1:
+        warnings.append(f"origins {', '.join(found)} in one table: all of it is taken as {found[0]}")
+    return found[0] if found else "measured"
 
 
 def _times(path: Path, text: Any) -> Any:
@@ -106,10 +142,9 @@ def _times(path: Path, text: Any) -> Any:
         times = parsed.to_numpy().astype("datetime64[ns]")
     else:
         elapsed = pd.to_numeric(text["elapsed_s"], errors="coerce").to_numpy(dtype=float)
-        steps = np.where(np.isfinite(elapsed), np.round(elapsed * 1e9), np.iinfo(np.int64).min)
-        times = np.where(
-            np.isfinite(elapsed), np.datetime64(_EPOCH, "ns") + steps.astype("m8[ns]"), np.datetime64("NaT")
-        )
+        steps = np.round(np.where(np.isfinite(elapsed), elapsed, 0.0) * 1e9).astype(np.int64)
+        times = (np.datetime64(_EPOCH, "ns").astype(np.int64) + steps).astype("datetime64[ns]")
+        times[~np.isfinite(elapsed)] = np.datetime64("NaT", "ns")
     bad = np.flatnonzero(np.isnat(times))
     if len(bad):
         raise InputError(path, f"line {int(bad[0]) + 2}: the time cannot be read; ISO 8601 UTC or seconds are needed")

@@ -43,8 +43,11 @@ def _seawater(log: Log) -> list[Channel]:
     )
     p_dbar = np.maximum(p / DBAR, 0.0)
     salinity = gsw.SP_from_C(c * 10.0, t, p_dbar)  # mS/cm
-    longitude, latitude = (float(np.median(log[n].values)) if n in log else 0.0 for n in ("longitude", "latitude"))
-    absolute = gsw.SA_from_SP(salinity, p_dbar, longitude, latitude)
+    if "longitude" in log and "latitude" in log:
+        longitude, latitude = (float(np.median(log[name].values)) for name in ("longitude", "latitude"))
+        absolute = gsw.SA_from_SP(salinity, p_dbar, longitude, latitude)
+    else:
+        absolute = gsw.SR_from_SP(salinity)  # reference salinity: no place is known, and none is made up
     density = gsw.rho_t_exact(absolute, t, p_dbar)
     found = []
     for name, values in (("salinity", salinity), ("density", density)):

@@ -11,10 +11,11 @@ import numpy as np
 
 from glidercli.errors import GliderError, InputError
 from glidercli.files import readable_file
-from glidercli.log import Channel, Log
+from glidercli.log import Log
 from glidercli.logio.csv_log import is_csv, read_csv
 from glidercli.logio.dead_reckoning import with_track
 from glidercli.logio.derived import with_derived
+from glidercli.logio.joining import joined
 from glidercli.logio.report import FileReport
 from glidercli.logio.seaexplorer import is_seaexplorer, read_seaexplorer
 
@@ -52,6 +53,8 @@ FORMATS: dict[str, tuple[Callable[[Path], bool], Reader]] = {
     "glider-csv": (is_csv, read_csv),
 }
 """Formats by name: whether a file is one, and its reader; asked in this order."""
+COMPANIONS = (".md", ".rst", ".txt", ".toml", ".json", ".py", ".png", ".svg", ".pdf", ".html", ".rrd")
+"""Endings of what stands in a folder beside logs: notes, settings, pictures, outputs that are not read back."""
 
 
 def read(paths: Sequence[str | Path], format: str | None = None) -> Reading:
@@ -67,45 +70,49 @@ def read(paths: Sequence[str | Path], format: str | None = None) -> Reading:
     if format is not None and format not in FORMATS:
         raise InputError(format, f"is no format; allowed: {', '.join(FORMATS)}")
     files = _files(paths)
-    logs, reports = [], []
+    parts: list[tuple[Log, FileReport]] = []
+    reports = []
     for path in files:
         try:
             log, report = _read_one(path, format)
             if log.channels:
-                logs.append(log)
+                parts.append((log, report))
             else:
                 report = dataclasses.replace(report, error="no usable record")
         except GliderError as error:
             report = FileReport(path, None, 0, 0, error=str(error).removeprefix(f"{path}: "))
         reports.append(report)
-    if not logs:
+    if not parts:
         first = reports[0]
         more = f" (and {len(reports) - 1} more files)" if len(reports) > 1 else ""
         raise InputError(first.path, f"{first.error}{more}")
-    log = _joined(logs)
+    log, whole = joined(parts)
+    counted = {report.path: report for report in whole}
+    reports = [counted.get(report.path, report) for report in reports]
     if any(report.format == "seaexplorer" for report in reports):
         log = with_track(with_derived(log)).with_metadata(
             title="SeaExplorer log",
             platform="SeaExplorer",
             mass_position_zero="the actuator's own zero (LinPos), not the model's",
             mass_rotation_note="mass_rotation = -AngPos: recorded roll follows AngPos, the model's rotation opposes it",
-            heading_note="taken as recorded; whether the declination was applied is not told by the file",
+            heading_note="taken as recorded, from true north; Declination is not added, since the vehicle's own dead "
+            "reckoning, where a file shows it, runs along the recorded heading",
             phase_note="from the recorded NavState",
         )
     return Reading(log, tuple(reports))
 
 
 def _files(paths: Sequence[str | Path]) -> list[Path]:
-    """Every file that the paths name, each once; folders and globs sorted, companions of tables left out."""
+    """Every file that the paths name, each once; folders and globs sorted, companions in folders left out."""
     found: list[Path] = []
     for given in paths:
         path = Path(given)
         if path.is_dir():
             inside = [p for p in sorted(path.iterdir()) if p.is_file() and not p.name.startswith(".")]
-            recognised = [p for p in inside if p.stat().st_size and _format_of(p)]
+            recognised = [p for p in inside if _format_of(p)]
             if not recognised:
                 raise InputError(path, f"holds no log; readable are {', '.join(FORMATS)}")
-            found += recognised
+            found += [p for p in inside if p in recognised or not _is_companion(p)]
         elif path.exists() or not glob.has_magic(str(given)):
             found.append(path)
         else:
@@ -113,11 +120,19 @@ def _files(paths: Sequence[str | Path]) -> list[Path]:
             if not matches:
                 raise InputError(given, "no file matches")
             found += [match for match in matches if match.is_file()]
-    return list(dict.fromkeys(found))
+    return list({path.resolve(): path for path in reversed(found)}.values())[::-1]
+
+
+def _is_companion(path: Path) -> bool:
+    """Whether a file of no known format only goes with the logs of its folder; another one is named as broken."""
+    return path.suffix.lower() in COMPANIONS or path.name.upper().startswith(("README", "LICENSE", "LICENCE"))
 
 
 def _format_of(path: Path) -> str | None:
-    return next((name for name, (recognises, _) in FORMATS.items() if recognises(path)), None)
+    try:
+        return next((name for name, (recognises, _) in FORMATS.items() if recognises(path)), None)
+    except OSError:
+        return None
 
 
 def _read_one(path: Path, format: str | None) -> tuple[Log, FileReport]:
@@ -126,17 +141,3 @@ def _read_one(path: Path, format: str | None) -> tuple[Log, FileReport]:
     if name is None:
         raise InputError(path, f"is not a log that can be read; readable are {', '.join(FORMATS)}")
     return FORMATS[name][1](path)
-
-
-def _joined(logs: Sequence[Log]) -> Log:
-    """One log of several: each channel's samples in time order, the first of samples at the same time kept."""
-    if len(logs) == 1:
-        return logs[0]
-    channels = {}
-    for name in dict.fromkeys(name for log in logs for name in log.channels):
-        parts = [log[name] for log in logs if name in log]
-        times, first = np.unique(np.concatenate([part.time_ns for part in parts]), return_index=True)
-        channels[name] = Channel(name, times, np.concatenate([p.values for p in parts])[first], parts[0].origin)
-    metadata = {key: value for log in reversed(logs) for key, value in log.metadata.items()}
-    events = tuple(sorted((e for log in logs for e in log.events), key=lambda event: event.time_ns))
-    return Log(channels, logs[0].origin, metadata, events)

@@ -30,7 +30,7 @@ class Replay:
 
     @property
     def broken(self) -> tuple[FileReport, ...]:
-        """Files that could not be read."""
+        """Files that could not be read, or not as a whole."""
         return tuple(report for report in self.files if report.error is not None)
 
     def document(self) -> dict[str, Any]:
@@ -72,6 +72,7 @@ def replay(
     format: str | None = None,
     start: str | None = None,
     end: str | None = None,
+    strict: bool = False,
     force: bool = False,
 ) -> Replay:
     """Read logs, account for every record, and write the outputs.
@@ -81,9 +82,14 @@ def replay(
     paths : files, folders, globs. outputs : files; the ending picks the writer.
     format : read every file as this format.
     start, end : ISO 8601 UTC, or seconds since the log's first sample; the part with start <= time < end is taken.
+    strict : a file that cannot be read, or not as a whole, is an InputError, and nothing is written.
     """
     reading = read(paths, format)
     log = reading.log
+    broken = [report for report in reading.files if report.error is not None]
+    if strict and broken:
+        more = f", and {len(broken) - 1} more files" if len(broken) > 1 else ""
+        raise InputError(broken[0].path, f"{broken[0].error} (--strict){more}")
     if start is not None or end is not None:
         log = log.sliced(_moment(log, "--start", start), _moment(log, "--end", end))
         if not log.channels:
@@ -91,7 +97,7 @@ def replay(
                 "--start, --end",
                 f"no sample lies there; the log runs {iso(reading.log.start_ns)} to {iso(reading.log.end_ns)}",
             )
-    inputs = [report.path for report in reading.files if report.error is None]
+    inputs = [report.path for report in reading.files if report.kept]
     log = log.with_metadata(provenance=provenance_json(inputs=inputs, origin=log.origin))
     for path in outputs:
         write(log, path, force=force)

@@ -15,7 +15,7 @@ class FileReport:
 
     format : name of the format, or None where it was not recognised. records : entries of the file (lines, rows or
     messages). kept : those that gave at least one sample. dropped : the others, as (reason, count). warnings : single
-    cells left out, and other remarks. error : why nothing could be read, or None.
+    cells left out, and other remarks. error : why the file, or a part of it, could not be read, or None.
     """
 
     path: Path
@@ -27,13 +27,13 @@ class FileReport:
     error: str | None = None
 
     def document(self) -> dict[str, Any]:
-        """The contract's JSON entry."""
+        """The contract's JSON entry; an error stands first among the warnings too."""
         entry: dict[str, Any] = {
             "path": str(self.path),
             "format": self.format,
             "records": self.records,
             "kept": self.kept,
             "dropped": [{"reason": reason, "count": count} for reason, count in self.dropped],
-            "warnings": list(self.warnings),
+            "warnings": [*([] if self.error is None else [self.error]), *self.warnings],
         }
         return entry if self.error is None else {**entry, "error": self.error}

@@ -114,7 +114,7 @@ def _blueprint(log: Log, camera: tuple[Array, Array] | None, has_hull: bool, has
             alone = len(present) < min(len(names), 2)
             tabs.setdefault(tab, []).append(_plot(series_name(present[0]) if alone else title, present))
     if has_plan:
-        plan = rrb.Spatial2DView(origin="/plan", name=named("north", "from above, east right, north up, m"))
+        plan = rrb.Spatial2DView(origin="/plan", name=named("north", "from above, north up, m"))
         tabs["Map"] = [plan, *tabs.get("Map", [])]
     tabs["About"] = [rrb.TextDocumentView(origin="/about", name="about this recording")]
     if log.events:

@@ -75,46 +75,36 @@ def written(log: Log, folder: Path, name: str = "log.rrd") -> Path:
     return folder / name
 
 
-def rows(path: Path, entity: str, component: str, blueprint: bool = False) -> tuple[Any, Any, list[Any]]:
-    """Times in both timelines (None where static) and values of one component, by the library's own reader."""
+def stored(path: Path, blueprint: bool = False) -> list[tuple[str, Any]]:
+    """Entity and record batch of each chunk of the recording or of its blueprint, by the library's own reader."""
     from rerun.chunk import RrdReader
 
     reader = RrdReader(path)
-    store = reader.blueprints()[0] if blueprint else None
-    for chunk in reader.stream(store=store).to_chunks():
-        batch = chunk.to_record_batch()
-        if chunk.entity_path == entity and component in batch.schema.names:
-            times = [
-                batch.column(name).to_numpy(zero_copy_only=False).astype(np.int64)
-                if name in batch.schema.names
-                else None
-                for name in ("utc", "elapsed")
-            ]
-            return *times, batch.column(component).to_pylist()
+    chunks = reader.stream(store=reader.blueprints()[0] if blueprint else None).to_chunks()
+    return [(chunk.entity_path, chunk.to_record_batch()) for chunk in chunks]
+
+
+def rows(path: Path, entity: str, component: str) -> tuple[Any, Any, list[Any]]:
+    """Times in both timelines (None where static) and values of one component."""
+    for place, batch in stored(path):
+        if place == entity and component in batch.schema.names:
+            known = {name: batch.column(name) for name in ("utc", "elapsed") if name in batch.schema.names}
+            times = {name: column.to_numpy(zero_copy_only=False).astype(np.int64) for name, column in known.items()}
+            return times.get("utc"), times.get("elapsed"), batch.column(component).to_pylist()
     raise KeyError(f"{entity} {component}")
 
 
 def panels(path: Path) -> set[str]:
     """Names of the views in the file's blueprint."""
-    from rerun.chunk import RrdReader
-
-    reader = RrdReader(path)
-    batches = [chunk.to_record_batch() for chunk in reader.stream(store=reader.blueprints()[0]).to_chunks()]
-    column = "ViewBlueprint:display_name"
-    return {batch.column(column).to_pylist()[0][0] for batch in batches if column in batch.schema.names}
+    name = "ViewBlueprint:display_name"
+    return {b.column(name).to_pylist()[0][0] for _, b in stored(path, blueprint=True) if name in b.schema.names}
 
 
 def sights(path: Path) -> list[Any]:
     """From the eye of each three-dimensional view in the file's blueprint to the point that it looks at."""
-    from rerun.chunk import RrdReader
-
-    reader = RrdReader(path)
-    eyes = ("EyeControls3D:look_target", "EyeControls3D:position")
-    batches = [chunk.to_record_batch() for chunk in reader.stream(store=reader.blueprints()[0]).to_chunks()]
-    found = [
-        [batch.column(name).to_pylist()[0][0] for name in eyes] for batch in batches if eyes[1] in batch.schema.names
-    ]
-    return [np.subtract(*pair) for pair in found]
+    ends = ("EyeControls3D:look_target", "EyeControls3D:position")
+    views = [batch for _, batch in stored(path, blueprint=True) if ends[1] in batch.schema.names]
+    return [np.subtract(*(batch.column(name).to_pylist()[0][0] for name in ends)) for batch in views]
 
 
 def page(path: Path) -> str:
@@ -234,7 +224,7 @@ def test_panels_without_data_are_left_out(spiral: Log, field: Log, depth_only: L
     assert panels(written(field, tmp_path)) == {
         "MEASURED: camera on the hull (not to scale)", "depth, m (negative down)", "attitude, deg",
         "heading, deg clockwise from north", "temperature, degC", "conductivity, S/m",
-        "MEASURED: from above, east right, north up, m", "latitude, deg", "longitude, deg", "about this recording",
+        "MEASURED: from above, north up, m", "latitude, deg", "longitude, deg", "about this recording",
     }  # fmt: skip
     shown = panels(written(spiral, tmp_path))
     assert {"SIMULATED: track, north-east-down, m", "SIMULATED: camera on the hull", "flight phase", "events"} <= shown
