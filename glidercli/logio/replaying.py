@@ -11,10 +11,12 @@ import numpy as np
 
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import InputError
+from glidercli.files import check_outputs
 from glidercli.log import Channel, Log
+from glidercli.logio.csv_log import metadata_path
 from glidercli.logio.reading import read
 from glidercli.logio.report import FileReport
-from glidercli.logio.writing import write
+from glidercli.logio.writing import SUFFIXES, write
 from glidercli.provenance import provenance_json
 
 __all__ = ["Replay", "replay"]
@@ -84,6 +86,9 @@ def replay(
     start, end : ISO 8601 UTC, or seconds since the log's first sample; the part with start <= time < end is taken.
     strict : a file that cannot be read, or not as a whole, is an InputError, and nothing is written.
     """
+    targets = [Path(path) for path in outputs]
+    check_outputs(targets, SUFFIXES, force)
+    check_outputs([metadata_path(path) for path in targets if path.suffix.lower() == ".csv"], (".json",), force)
     reading = read(paths, format)
     log = reading.log
     broken = [report for report in reading.files if report.error is not None]
@@ -99,9 +104,9 @@ def replay(
             )
     inputs = [report.path for report in reading.files if report.kept]
     log = log.with_metadata(provenance=provenance_json(inputs=inputs, origin=log.origin))
-    for path in outputs:
+    for path in targets:
         write(log, path, force=force)
-    return Replay(log, reading.files, tuple(Path(path) for path in outputs))
+    return Replay(log, reading.files, tuple(targets))
 
 
 def _moment(log: Log, option: str, text: str | None) -> int | None:

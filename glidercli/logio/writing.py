@@ -8,6 +8,7 @@ from glidercli.errors import OutputError
 from glidercli.files import atomic
 from glidercli.log import Log
 from glidercli.logio.csv_log import metadata_path, write_csv, write_metadata
+from glidercli.provenance import provenance_json
 
 __all__ = ["SUFFIXES", "write"]
 
@@ -18,9 +19,12 @@ SUFFIXES = (".mcap", ".rrd", ".csv")
 def write(log: Log, path: str | Path, force: bool = False) -> None:
     """Save a log; the ending picks the writer: .mcap (Foxglove, Lichtblick), .rrd (Rerun), .csv.
 
-    force : replace a file that exists; without it that is an OutputError.
+    force : replace a file that exists; without it that is an OutputError. A log without provenance gets that of this
+    process.
     """
     target = Path(path)
+    if "provenance" not in log.metadata:
+        log = log.with_metadata(provenance=provenance_json(origin=log.origin))
     match target.suffix.lower():
         case ".csv":
             with atomic(target, force) as part, atomic(metadata_path(target), force) as beside:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import shutil
 from pathlib import Path
 
@@ -13,7 +14,7 @@ import pytest
 from conftest import ROOT, Run, one_line_error
 
 from glidercli.channels import PHASES
-from glidercli.errors import InputError
+from glidercli.errors import InputError, OutputError
 from glidercli.log import Channel, Log
 from glidercli.logio import read, replay, write
 from glidercli.logio.dead_reckoning import with_track
@@ -227,3 +228,20 @@ def test_strict_is_one_line(glider: Run, tmp_path: Path) -> None:
     document = json.loads(glider("replay", NAVIGATION.name, "bad", "--json").stdout)
     assert document["files"][1]["records"] == document["files"][1]["kept"] == 0
     assert document["files"][1]["warnings"]
+
+
+@pytest.mark.parametrize("taken", ["b.csv-metadata.json", "b.csv"])
+def test_outputs_are_refused_before_any_is_written(tmp_path: Path, taken: str) -> None:
+    (tmp_path / taken).write_text("mine")
+    with pytest.raises(OutputError, match=rf"{re.escape(taken)}: exists; --force"):
+        replay([NAVIGATION], [tmp_path / "a.mcap", tmp_path / "b.csv"])
+    assert [path.name for path in tmp_path.iterdir()] == [taken]
+    assert (tmp_path / taken).read_text() == "mine"
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.mcap"])
+def test_every_output_carries_provenance(tmp_path: Path, name: str) -> None:
+    write(depth_log(0, 3), tmp_path / name)
+    record = json.loads(read([tmp_path / name]).log.metadata["provenance"])
+    assert record["program"].startswith("glidercli ")
+    assert record["origin"] == "measured"
