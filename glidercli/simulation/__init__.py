@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["Simulation", "simulate"]
 
 DEFAULT_DURATION = 3600.0  # s, of a flight with held controls
+MOST_SAMPLES = 10_000_000  # some 5 GB of log
 
 
 @dataclasses.dataclass(frozen=True)
@@ -132,6 +133,11 @@ def simulate(
     for name, value, least in (("duration", length, 1e-3), ("every", every, 1e-3), ("rtol", rtol, 1e-13)):
         if not (math.isfinite(value) and value >= least):
             raise InputError(name, f"{value} is not allowed; a finite number of at least {least:g} is needed")
+    if length / every > MOST_SAMPLES:
+        raise InputError(
+            "duration, every",
+            f"{length:g} s by {every:g} s is {length / every:.3g} samples, allowed {MOST_SAMPLES:.0e}",
+        )
     if not (math.isfinite(depth) and depth >= 0.0):
         raise InputError("start depth", f"{depth} m is not allowed; a finite depth of at least 0 m is needed")
     flight = fly(

@@ -24,8 +24,10 @@ __all__ = ["Solution", "residuals", "solve_forward"]
 
 Array = NDArray[np.float64]
 
-TOLERANCE = 1e-10
-"""Largest residual of a solution, N or N m: a hundred-billionth of the forces of a glide (some newtons)."""
+RELATIVE_TOLERANCE = 1e-11
+"""Largest residual of a solution over the net weight that drives it."""
+ROUNDING = 1e-14
+"""Residual in N or N m that rounding leaves in static moments of some N m; no solution is asked to be better."""
 
 EQUATIONS = (
     "force along x (28)", "force along y (28)", "force along z (28)",
@@ -53,10 +55,16 @@ def residuals(x: Array, c: Controls, water: Water, p: Parameters) -> Array:
     return np.array(equilibrium(velocity_from_flow(V, alpha, beta), down_in_body(phi, theta), omega3, c, water, p))
 
 
+def tolerance(c: Controls, water: Water) -> float:
+    """Largest residual, N or N m, that counts as zero for these controls."""
+    return max(RELATIVE_TOLERANCE * abs(c.mb) * water.gravity, ROUNDING)
+
+
 def newton(start: Array, c: Controls, water: Water, p: Parameters, limit: int = 30) -> Solution:
     """Damped Newton from a start: each step is halved until the residual shrinks."""
     x = np.array(start, dtype=float)
     r = residuals(x, c, water, p)
+    enough = tolerance(c, water)
     for iteration in range(1, limit + 1):
         steps = np.eye(6) * _STEP
         columns = [(residuals(x + h, c, water, p) - residuals(x - h, c, water, p)) / (2.0 * _STEP) for h in steps]
@@ -74,10 +82,10 @@ def newton(start: Array, c: Controls, water: Water, p: Parameters, limit: int = 
         else:
             break
         x, r = trial, new
-        if np.abs(r).max() < TOLERANCE:
+        if np.abs(r).max() < enough:
             return Solution(x, float(np.abs(r).max()), iteration, True)
     residual = float(np.abs(r).max())
-    return Solution(x, residual, limit, residual < TOLERANCE)
+    return Solution(x, residual, limit, residual < enough)
 
 
 def _glides(x: Array, c: Controls) -> bool:

@@ -128,3 +128,7 @@ def test_two_runs_give_the_same_bytes(glider: Run, tmp_path: Path) -> None:
     for name in ("a.csv", "b.csv"):
         assert glider("simulate", *CONTROLS, "--duration", "100", "-o", name).returncode == 0
     assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
+
+
+def test_more_samples_than_memory_are_refused(glider: Run) -> None:
+    one_line_error(glider("simulate", *CONTROLS, "--duration", "1e8", "--every", "0.001"), "duration", "samples")

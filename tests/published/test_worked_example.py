@@ -55,3 +55,13 @@ def test_signs_of_the_four_spirals(name: str) -> None:
             continue  # climbs leave the table once roll nears 90 deg
         found = (t.angle_of_attack, t.sideslip, t.yaw_rate, t.pitch, t.roll)
         assert tuple(math.copysign(1, value) for value in found) == signs, (gamma, mb, offset)
+
+
+@pytest.mark.parametrize("mb", [1e-6, 1e-3, 1.0])
+def test_attitude_of_weak_and_strong_drive_stays_sensible(mb: float) -> None:
+    """The heavier the drive, the more flow bends the balance; at the weak end it is statics alone: tan(theta) = -s_x / s_z."""
+    t = glidercli.trim(net_buoyancy=mb, mass_position=0.4216, mass_rotation=0.0)
+    assert t.residual <= max(1e-11 * mb * 9.81, 1e-14)  # the solver's own promise
+    if mb <= 1e-3:
+        s = (54.28 * -0.0814 + 11 * 0.4216, 54.28 * 0.0032 + 11 * 0.014)
+        assert t.pitch == pytest.approx(-math.atan2(*s), abs=2e-3)  # moments of the flow, a thousandth of the weight's
