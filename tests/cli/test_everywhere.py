@@ -1,4 +1,4 @@
-"""DESIGN, contract of the commands: what holds everywhere."""
+"""The contract of the commands: what holds everywhere."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""DESIGN, contract of ``glider replay``, from its words alone."""
+"""The contract of ``glider replay``, from its words alone."""
 
 from __future__ import annotations
 
