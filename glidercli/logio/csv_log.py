@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import csv
 import json
 from pathlib import Path
 from typing import Any, TextIO, get_args
 
 import numpy as np
 
-from glidercli.channels import by_column
+from glidercli.channels import PHASES, by_column
 from glidercli.errors import InputError
 from glidercli.log import Channel, Event, Log, Origin
 from glidercli.logio.report import FileReport
@@ -17,6 +18,8 @@ __all__ = ["is_csv", "metadata_path", "read_csv", "write_csv", "write_csv_stream
 
 _EPOCH = "2000-01-01T00:00:00"
 """Start of a table that has elapsed_s alone; the same arbitrary date as for a flight without one."""
+_YEARS = ("1700-01-01", "2200-01-01")
+"""Times allowed: nanoseconds in 64 bits hold little more."""
 
 
 def metadata_path(path: Path) -> Path:
@@ -54,9 +57,10 @@ def write_metadata(log: Log, path: Path) -> None:
 
 def is_csv(path: Path) -> bool:
     """Whether the first line names columns of the contract, a time among them."""
+    with path.open("rb") as stream:
+        first = stream.readline(1 << 20)
     try:
-        with path.open(encoding="utf-8-sig") as stream:
-            names = [name.strip() for name in stream.readline().split(",")]
+        names = [name.strip() for name in first.decode("utf-8-sig").split(",")]
     except UnicodeDecodeError:
         return False
     return bool({"time_utc", "elapsed_s"} & set(names)) and any(by_column(name) for name in names)
@@ -66,25 +70,21 @@ def read_csv(path: Path) -> tuple[Log, FileReport]:
     """A log from a CSV table with time_utc (or elapsed_s) and columns in the contract's names.
 
     Where its values come from is told by the metadata beside it, else by a column named origin; else they are taken as
-    measured, and the log's metadata say so. Raises InputError where a cell is no number or a time cannot be read or
-    does not increase, naming the line.
+    measured, and the log's metadata say so. A row with another number of fields than the first line, such as a last
+    one cut short, is dropped and counted. Raises InputError where a cell is no number, a phase is unknown, or a time
+    cannot be read or does not increase, naming the line.
     """
     import pandas as pd
 
-    try:
-        text = pd.read_csv(path, dtype=str, encoding="utf-8-sig", keep_default_na=False)
-    except (UnicodeDecodeError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
-        raise InputError(path, f"is not a CSV table: {error}") from None
-    table = pd.DataFrame({"time_utc": _times(path, text)})
+    text, cut = _text_table(path)
+    table = pd.DataFrame({"time_utc": _times(path, text)}, index=text.index)
     unknown = []
     for name in text.columns:
-        spec = by_column(str(name))
+        spec = by_column(name)
         if spec is None:
-            unknown += [] if name in ("time_utc", "elapsed_s", "origin") else [str(name)]
-        elif spec.name == "phase":
-            table[name] = text[name]
+            unknown += [] if name in ("time_utc", "elapsed_s", "origin") else [name]
         else:
-            table[name] = _numbers(path, str(name), text[name])
+            table[name] = _phases(path, text[name]) if spec.name == "phase" else _numbers(path, name, text[name])
     beside = metadata_path(path)
     metadata = _metadata(beside) if beside.is_file() else {}
     warnings = [f"columns not known and not used: {', '.join(unknown)}"] if unknown else []
@@ -99,9 +99,35 @@ def read_csv(path: Path) -> tuple[Log, FileReport]:
     channels = [Channel(c.name, c.time_ns, c.values, origins.get(c.name, origin)) for c in log.channels.values()]
     events = tuple(Event(e["name"], int(e["time_ns"]), e["depth_m"]) for e in metadata.get("events", []))
     log = Log({channel.name: channel for channel in channels if len(channel)}, origin, log.metadata, events)
-    kept = int(table.drop(columns="time_utc").replace("", None).notna().any(axis=1).sum())
-    dropped = (("no value", len(table) - kept),) if kept < len(table) else ()
-    return log, FileReport(path, "glider-csv", len(table), kept, dropped, tuple(warnings))
+    kept = int(table.drop(columns="time_utc").notna().any(axis=1).sum())
+    dropped = {"no value": len(table) - kept, "wrong number of fields": cut}
+    reasons = tuple((reason, count) for reason, count in dropped.items() if count)
+    return log, FileReport(path, "glider-csv", len(table) + cut, kept, reasons, tuple(warnings))
+
+
+def _text_table(path: Path) -> tuple[Any, int]:
+    """The cells as text, the line in the file as index, and the number of rows with too few or too many of them."""
+    import pandas as pd
+
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as stream:
+            reader = csv.reader(stream, strict=True)
+            names = [name.strip() for name in next(reader, [])]
+            rows, lines, cut = [], [], 0
+            for row in reader:
+                if len(row) == len(names):
+                    rows.append(row)
+                    lines.append(reader.line_num)
+                else:
+                    cut += bool(row)  # an empty line is no row
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise InputError(path, f"is not a CSV table: {error}") from None
+    twice = [name for name in dict.fromkeys(names) if names.count(name) > 1]
+    if twice:
+        raise InputError(path, f"line 1: column {twice[0]} stands there twice; each may once")
+    if not {"time_utc", "elapsed_s"} & set(names):
+        raise InputError(path, "line 1: no column of times; time_utc or elapsed_s is needed")
+    return pd.DataFrame(rows, columns=names, index=lines, dtype=str), cut
 
 
 def _metadata(path: Path) -> dict[str, Any]:
@@ -126,7 +152,7 @@ def _origin(path: Path, text: Any, warnings: list[str]) -> Origin:
     bad = np.flatnonzero(~words.isin(known))
     if len(bad):
         row = int(bad[0])
-        raise InputError(path, f"line {row + 2}: origin = {words.iloc[row]!r}; allowed: {', '.join(known)}")
+        raise InputError(path, f"line {text.index[row]}: origin = {words.iloc[row]!r}; allowed: {', '.join(known)}")
     found = [word for word in known if (words == word).any()]
     if len(found) > 1:
         warnings.append(f"origins {', '.join(found)} in one table: all of it is taken as {found[0]}")
@@ -134,24 +160,42 @@ def _origin(path: Path, text: Any, warnings: list[str]) -> Origin:
 
 
 def _times(path: Path, text: Any) -> Any:
-    """Times of the rows, datetime64[ns], UTC."""
+    """Times of the rows, datetime64[ns], UTC, of the years 1700 to 2200."""
     import pandas as pd
 
     if "time_utc" in text:
         parsed = pd.to_datetime(text["time_utc"], utc=True, errors="coerce", format="ISO8601").dt.tz_localize(None)
-        times = parsed.to_numpy().astype("datetime64[ns]")
+        told = parsed.between(pd.Timestamp(_YEARS[0]), pd.Timestamp(_YEARS[1])).to_numpy()
+        times = parsed.where(told).to_numpy().astype("datetime64[ns]")
     else:
+        epoch, first, last = (np.datetime64(moment, "s") for moment in (_EPOCH, *_YEARS))
         elapsed = pd.to_numeric(text["elapsed_s"], errors="coerce").to_numpy(dtype=float)
-        steps = np.round(np.where(np.isfinite(elapsed), elapsed, 0.0) * 1e9).astype(np.int64)
-        times = (np.datetime64(_EPOCH, "ns").astype(np.int64) + steps).astype("datetime64[ns]")
-        times[~np.isfinite(elapsed)] = np.datetime64("NaT", "ns")
-    bad = np.flatnonzero(np.isnat(times))
+        low, high = ((moment - epoch).astype(float) for moment in (first, last))
+        told = (elapsed >= low) & (elapsed <= high)
+        steps = np.round(np.where(told, elapsed, 0.0) * 1e9).astype("timedelta64[ns]")
+        times = np.where(told, epoch.astype("datetime64[ns]") + steps, np.datetime64("NaT", "ns"))
+    bad = np.flatnonzero(~told)
     if len(bad):
-        raise InputError(path, f"line {int(bad[0]) + 2}: the time cannot be read; ISO 8601 UTC or seconds are needed")
+        raise InputError(
+            path, f"line {text.index[bad[0]]}: the time cannot be read; ISO 8601 UTC or seconds are needed"
+        )
     back = np.flatnonzero(np.diff(times) <= np.timedelta64(0, "ns"))
     if len(back):
-        raise InputError(path, f"line {int(back[0]) + 3}: the time does not increase; rows must be in time order")
+        raise InputError(
+            path, f"line {text.index[back[0] + 1]}: the time does not increase; rows must be in time order"
+        )
     return times
+
+
+def _phases(path: Path, cells: Any) -> Any:
+    """A column of phases, None where a cell is empty."""
+    words = cells.str.strip()
+    words = words.mask(words == "", None)
+    bad = np.flatnonzero(words.notna() & ~words.isin(PHASES))
+    if len(bad):
+        row = int(bad[0])
+        raise InputError(path, f"line {cells.index[row]}: phase = {cells.iloc[row]!r}; allowed: {', '.join(PHASES)}")
+    return words
 
 
 def _numbers(path: Path, name: str, cells: Any) -> Any:
@@ -164,5 +208,5 @@ def _numbers(path: Path, name: str, cells: Any) -> Any:
     bad = np.flatnonzero(~empty.to_numpy() & ~np.isfinite(values))
     if len(bad):
         row = int(bad[0])
-        raise InputError(path, f"line {row + 2}: {name} = {cells.iloc[row]!r}; a number is needed")
+        raise InputError(path, f"line {cells.index[row]}: {name} = {cells.iloc[row]!r}; a number is needed")
     return values

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from glidercli.errors import GliderError, InputError
+from glidercli.errors import GliderError, InputError, UsageError
 from glidercli.files import readable_file
 from glidercli.log import Log
 from glidercli.logio.csv_log import is_csv, read_csv
@@ -66,9 +66,11 @@ def read(paths: Sequence[str | Path], format: str | None = None) -> Reading:
     ------
     InputError
         A path does not exist, or no file could be read; one that could not beside others is in the account.
+    UsageError
+        No format of this name.
     """
     if format is not None and format not in FORMATS:
-        raise InputError(format, f"is no format; allowed: {', '.join(FORMATS)}")
+        raise UsageError(f"--format: {format} is no format; allowed: {', '.join(FORMATS)}")
     files = _files(paths)
     parts: list[tuple[Log, FileReport]] = []
     reports = []
@@ -78,7 +80,8 @@ def read(paths: Sequence[str | Path], format: str | None = None) -> Reading:
             if log.channels:
                 parts.append((log, report))
             else:
-                report = dataclasses.replace(report, error="no usable record")
+                why = ", ".join(f"{count} {reason}" for reason, count in report.dropped)
+                report = dataclasses.replace(report, error="no usable record" + (f": {why}" if why else ""))
         except GliderError as error:
             report = FileReport(path, None, 0, 0, error=str(error).removeprefix(f"{path}: "))
         reports.append(report)
@@ -95,8 +98,9 @@ def read(paths: Sequence[str | Path], format: str | None = None) -> Reading:
             platform="SeaExplorer",
             mass_position_zero="the actuator's own zero (LinPos), not the model's",
             mass_rotation_note="mass_rotation = -AngPos: recorded roll follows AngPos, the model's rotation opposes it",
-            heading_note="taken as recorded, from true north; Declination is not added, since the vehicle's own dead "
-            "reckoning, where a file shows it, runs along the recorded heading",
+            heading_note="taken as recorded, from true north; Declination is not added: where a file shows the "
+            "vehicle's own dead reckoning (sea063) it runs along the recorded heading to within 0.7 deg, Declination "
+            "being 6 deg; the GPS fixes of sea035 cannot tell",
             phase_note="from the recorded NavState",
         )
     return Reading(log, tuple(reports))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from glidercli.channels import CHANNELS, PHASES
-from glidercli.errors import InputError
+from glidercli.errors import InputError, UsageError
 from glidercli.files import check_outputs
 from glidercli.log import Channel, Log
 from glidercli.logio.csv_log import metadata_path
@@ -121,6 +121,6 @@ def _moment(log: Log, option: str, text: str | None) -> int | None:
         pass
     moment = pd.to_datetime(text, errors="coerce")
     if pd.isna(moment):
-        raise InputError(option, f"{text!r} is no time; ISO 8601 UTC or seconds since the log's start are allowed")
+        raise UsageError(f"{option}: {text!r} is no time; ISO 8601 UTC or seconds since the log's start are allowed")
     moment = moment.tz_localize("UTC") if moment.tzinfo is None else moment.tz_convert("UTC")
     return int(moment.as_unit("ns").value)

@@ -1,24 +1,8 @@
 """What does a SeaExplorer text file hold? Navigation (gli) and payload (pld) files, sub or raw, gzip or not.
 
-One line is one record. A record is dropped, and counted by its reason, when it cannot be used as a whole; a single cell
-outside its range is left out and counted in a warning. 9999, -9999 and blank cells are missing values, as the vehicle
-writes them.
-
-Signs and units as brought to channels.py:
-
-    Pitch       nose up positive, as recorded (on dives it is negative).
-    LinPos      mm, forward positive: the battery stands further forward on dives. The actuator's own zero is kept.
-    AngPos      deg; recorded roll follows it with the same sign. The model's rotation moves the mass to port and gives
-                negative roll, so mass_rotation = -AngPos.
-    BallastPos  cm3 of oil outside the hull, floating positive.
-    Lat, Lon    ddmm.mmm, repeated under water: a fix counts where it changes at the surface (NavState 116).
-    Heading     from true north, as recorded; Declination is not added. A file with DeadReckoning = 1 shows in Lat, Lon
-                the vehicle's own dead reckoning: in five files of sea063 it runs along Heading to within 0.7 deg,
-                where Declination is 6 deg. The fixes of sea035 cannot tell: over five dives the depth-averaged current
-                scatters by 0.030 m/s whether its 16 deg are added or not.
-    LEGATO_CONDUCTIVITY is in mS/cm, GPCTD_CONDUCTIVITY in S/m.
-
-Practical salinity and density are derived (TEOS-10), where the conductivity cell was surely under water.
+One line is one record. A record is dropped, and counted by its reason, when it cannot be used as a whole: cut lines,
+times that cannot be read, repeat, go back or come from a clock that was not set, lines without a value. Single cells
+that cannot be used are counted in warnings (seaexplorer_channels.py, where units and signs stand too).
 """
 
 from __future__ import annotations
@@ -26,70 +10,41 @@ from __future__ import annotations
 import zlib
 from collections import Counter
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.channels import PHASES
-from glidercli.log import Channel, Log
+from glidercli.log import Log
 from glidercli.logio.report import FileReport
-from glidercli.units import CM3, DBAR, DEGREE, MILLIMETRE
+from glidercli.logio.seaexplorer_channels import SENTINELS, channels_of
 
 __all__ = ["is_seaexplorer", "read_seaexplorer"]
 
 Array = NDArray[np.float64]
+Times = NDArray[np.int64]
 
 NAVIGATION, PAYLOAD = "Timestamp", "PLD_REALTIMECLOCK"
-AT_SURFACE = 116
-SENTINELS = (9999.0, -9999.0)
 PIECE = 4096
 """Bytes unpacked at a time, so that what stands before a damage is not lost."""
 STRAY = 30 * 86400 * 10**9
-"""Times further than this from a file's median come from a clock that was not set, ns."""
-SUBMERGED = 0.5
-"""Pressure in dbar below which the conductivity cell may be in air."""
-
-
-class Column(NamedTuple):
-    """How a column becomes a channel: value x factor, recorded values from low to high allowed."""
-
-    channel: str
-    factor: float
-    low: float
-    high: float
-
-
-COLUMNS = {
-    "Heading": Column("heading", DEGREE, 0.0, 360.0),
-    "Pitch": Column("pitch", DEGREE, -90.0, 90.0),
-    "Roll": Column("roll", DEGREE, -180.0, 180.0),
-    "Depth": Column("depth", 1.0, -5.0, 1500.0),
-    "BallastPos": Column("ballast_volume", CM3, -1000.0, 1000.0),
-    "LinPos": Column("mass_position", MILLIMETRE, -200.0, 200.0),
-    "AngPos": Column("mass_rotation", -DEGREE, -180.0, 180.0),
-    "GPCTD_TEMPERATURE": Column("temperature", 1.0, -3.0, 45.0),
-    "GPCTD_CONDUCTIVITY": Column("conductivity", 1.0, 0.0, 7.5),
-    "GPCTD_PRESSURE": Column("pressure", DBAR, -2.0, 1500.0),
-    "LEGATO_TEMPERATURE": Column("temperature", 1.0, -3.0, 45.0),
-    "LEGATO_CONDUCTIVITY": Column("conductivity", 0.1, 0.0, 75.0),
-    "LEGATO_PRESSURE": Column("pressure", DBAR, -2.0, 1500.0),
-}
-_PHASE_OF_STATE = {100: "dive", 117: "climb", 110: "hover", 118: "hover", 115: "surface", 116: "surface"}
+"""Times of one file that stand further apart than this are of two clocks, ns."""
+HELD = 3
+"""So many records show that a clock was set; fewer may be garbled."""
 
 
 def _text(data: bytes) -> tuple[str, bool]:
     """The text, unpacked where it is gzip as far as that goes, and whether it is whole."""
-    text, whole = b"", True
+    pieces, whole = [], True
     while whole and data[:2] == b"\x1f\x8b":  # members of a gzip file follow one another
         member, at = zlib.decompressobj(wbits=31), 0
         try:
             while at < len(data) and not member.eof:
-                text += member.decompress(data[at : at + PIECE])
+                pieces.append(member.decompress(data[at : at + PIECE]))
                 at += PIECE
         except zlib.error:
             whole = False
         whole, data = whole and member.eof, member.unused_data + data[at:]
+    text = b"".join(pieces)
     return (text if text or not whole else data).decode("latin-1"), whole
 
 
@@ -104,7 +59,7 @@ def is_seaexplorer(path: Path) -> bool:
 def read_seaexplorer(path: Path) -> tuple[Log, FileReport]:
     """One navigation or payload file: its Log, and what was kept and dropped."""
     text, whole = _text(path.read_bytes())
-    lines = text.lstrip("\ufeff\xef\xbb\xbf ").splitlines() or [""]
+    lines = text.lstrip("\ufeff\xef\xbb\xbf ").split("\n")
     names = [name.strip() for name in lines[0].split(";")]
     dropped: Counter[str] = Counter()
     rows: list[list[str]] = []
@@ -124,7 +79,7 @@ def read_seaexplorer(path: Path) -> tuple[Log, FileReport]:
     table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if i > 0 and name}
     good = _usable(time_ns, table, dropped)
     table = {name: values[good] for name, values in table.items()}
-    channels, warnings = _channels(time_ns[good], table)
+    channels, warnings = channels_of(time_ns[good], table)
     log = Log({channel.name: channel for channel in channels if len(channel)}, "measured")
     kept = int(np.isin(time_ns[good], np.concatenate([c.time_ns for c in channels] or [time_ns[:0]])).sum())
     if kept < good.sum():
@@ -134,7 +89,7 @@ def read_seaexplorer(path: Path) -> tuple[Log, FileReport]:
     return log, report
 
 
-def _times(texts: list[str]) -> NDArray[np.int64]:
+def _times(texts: list[str]) -> Times:
     """Times in UTC ns; the smallest integer where a text is no time."""
     import pandas as pd
 
@@ -144,25 +99,29 @@ def _times(texts: list[str]) -> NDArray[np.int64]:
 
 
 def _numbers(texts: list[str]) -> Array:
-    """Numbers; NaN where a cell is blank, a sentinel or no number."""
+    """Numbers; NaN where a cell is blank, infinite where it is no number."""
     import pandas as pd
 
     values = pd.to_numeric(pd.Series(texts, dtype=object), errors="coerce").to_numpy(dtype=float, copy=True)
-    values[np.isin(values, SENTINELS) | ~np.isfinite(values)] = np.nan
+    told = np.array([text.lower() not in ("", "nan") for text in texts], dtype=bool)
+    values[told & np.isnan(values)] = np.inf
     return values
 
 
-def _usable(time_ns: NDArray[np.int64], table: dict[str, Array], dropped: Counter[str]) -> NDArray[np.bool_]:
+def _usable(time_ns: Times, table: dict[str, Array], dropped: Counter[str]) -> NDArray[np.bool_]:
     """Which records can be used; the others are counted by their reason."""
     good: NDArray[np.bool_] = time_ns != np.iinfo(np.int64).min
     dropped["time cannot be read"] += int((~good).sum())
     if good.any():
-        stray = good & (np.abs(time_ns - np.median(time_ns[good])) > STRAY)
-        dropped["clock not set: more than 30 days from the file's median time"] += int(stray.sum())
-        good &= ~stray
-    numbers = np.array(list(table.values())) if table else np.empty((0, len(time_ns)))
-    blank = good & np.isnan(numbers).all(axis=0)
-    zero = good & ~blank & (np.nan_to_num(numbers) == 0.0).all(axis=0)
+        first, last = _set_clock(time_ns[good])
+        before, after = good & (time_ns < first), good & (time_ns > last)
+        dropped["clock not set: more than 30 days before the file's other times"] += int(before.sum())
+        dropped["time more than 30 days after the file's other times"] += int(after.sum())
+        good &= ~(before | after)
+    cells = np.array(list(table.values())) if table else np.empty((0, len(time_ns)))
+    told = np.isfinite(cells) & ~np.isin(cells, SENTINELS)
+    blank = good & ~told.any(axis=0)
+    zero = good & ~blank & ((cells == 0.0) | ~told).all(axis=0)
     dropped["no value"] += int(blank.sum())
     dropped["all values zero"] += int(zero.sum())
     good &= ~(blank | zero)
@@ -177,75 +136,13 @@ def _usable(time_ns: NDArray[np.int64], table: dict[str, Array], dropped: Counte
     return good
 
 
-def _channels(time_ns: NDArray[np.int64], table: dict[str, Array]) -> tuple[list[Channel], list[str]]:
-    """The channels of a table, and a warning for each kind of cell left out."""
-    channels: list[Channel] = []
-    warnings: list[str] = []
-    for name, column in COLUMNS.items():
-        if name not in table:
-            continue
-        values = table[name]
-        given = np.isfinite(values)
-        inside = given & (values >= column.low) & (values <= column.high)
-        if (given & ~inside).any():
-            warnings.append(
-                f"{name}: {int((given & ~inside).sum())} values outside {column.low:g}..{column.high:g} left out"
-            )
-        if inside.any():
-            channels.append(Channel(column.channel, time_ns[inside], values[inside] * column.factor))
-    if "NavState" in table:
-        channels += _navigation(time_ns, table, warnings)
-    by_name = {channel.name: channel for channel in channels}
-    if {"temperature", "conductivity", "pressure"} <= by_name.keys():
-        channels = _submerged(channels, by_name["pressure"], warnings)
-    return channels, warnings
+def _set_clock(time_ns: Times) -> tuple[int, int]:
+    """First and last time by the clock as it was set, ns.
 
-
-def _navigation(time_ns: NDArray[np.int64], table: dict[str, Array], warnings: list[str]) -> list[Channel]:
-    """Phase from the navigation state, and genuine GPS fixes."""
-    found = []
-    state = table["NavState"]
-    phase = np.array([PHASES.index(_PHASE_OF_STATE[int(s)]) if s in _PHASE_OF_STATE else np.nan for s in state])
-    known = np.isfinite(phase)
-    if known.any():
-        found.append(Channel("phase", time_ns[known], phase[known], "derived"))
-    if {"Lat", "Lon"} <= table.keys():
-        latitude, longitude = (_degrees(table[name]) for name in ("Lat", "Lon"))
-        changed = np.zeros(len(time_ns), dtype=bool)
-        changed[1:] = (np.diff(latitude) != 0.0) | (np.diff(longitude) != 0.0)
-        fix = changed & (state == AT_SURFACE) & (np.abs(latitude) <= 90.0) & (np.abs(longitude) <= 180.0)
-        repeated = int((np.isfinite(latitude) & ~fix).sum())
-        if repeated:
-            warnings.append(
-                f"Lat, Lon: {repeated} values left out that are no new fix at the surface, {int(fix.sum())} kept"
-            )
-        if fix.any():
-            found += [
-                Channel("latitude", time_ns[fix], latitude[fix]),
-                Channel("longitude", time_ns[fix], longitude[fix]),
-            ]
-    return found
-
-
-def _degrees(value: Array) -> Array:
-    """Degrees from ddmm.mmm, signed."""
-    whole = np.floor(np.abs(value) / 100.0)
-    return np.sign(value) * (whole + (np.abs(value) - 100.0 * whole) / 60.0)
-
-
-def _submerged(channels: list[Channel], pressure: Channel, warnings: list[str]) -> list[Channel]:
-    """The channels with conductivity kept only where the cell was surely under water."""
-    wet = pressure.time_ns[pressure.values >= SUBMERGED * DBAR]
-    kept = []
-    for channel in channels:
-        if channel.name == "conductivity":
-            under = np.isin(channel.time_ns, wet)
-            if not under.all():
-                warnings.append(
-                    f"conductivity: {int((~under).sum())} values at less than {SUBMERGED:g} dbar left out: "
-                    "the cell may be in air"
-                )
-            channel = Channel("conductivity", channel.time_ns[under], channel.values[under])
-        if len(channel):
-            kept.append(channel)
-    return kept
+    A clock that is not set runs behind, and may do so for most of a file: of the groups of times that lie STRAY apart
+    the latest with HELD records counts; where none has as many, the largest.
+    """
+    ordered = np.sort(time_ns)
+    groups = np.split(ordered, np.flatnonzero(np.diff(ordered) > STRAY) + 1)[::-1]
+    group = next((g for g in groups if len(g) >= HELD), max(groups, key=len))
+    return int(group[0]), int(group[-1])

@@ -60,6 +60,36 @@ def test_bad_input_is_one_line(glider: Run, tmp_path: Path) -> None:
     (tmp_path / "folder").mkdir()
     for target in ("missing", "empty", "folder", "*.none"):
         one_line_error(glider("replay", target, "-o", "o.mcap"), target)
-    one_line_error(glider("replay", LOGS, "--start", "later"), "--start")
-    one_line_error(glider("replay", LOGS, "--format", "floppy"), "floppy", "seaexplorer")
     assert not (tmp_path / "o.mcap").exists()
+
+
+def test_wrong_usage_is_2(glider: Run) -> None:
+    one_line_error(glider("replay", LOGS, "--start", "later"), "--start", "ISO 8601", code=2)
+    one_line_error(glider("replay", LOGS, "--end", "nan"), "--end", code=2)
+    one_line_error(glider("replay", LOGS, "--format", "floppy"), "floppy", "seaexplorer", code=2)
+    one_line_error(glider("replay", LOGS, "--json", "-o", "-"), "stdout", code=2)
+
+
+def test_nothing_between_start_and_end_is_a_failure(glider: Run) -> None:
+    one_line_error(glider("replay", LOGS, "--start", "10", "--end", "5"), "--start, --end", "2019-07-21T23:24:49")
+
+
+def test_seconds_count_from_the_logs_start(glider_json: Callable[..., Any]) -> None:
+    document = glider_json("replay", LOGS, "--start", "60", "--end", "120")
+    assert min(channel["first"] for channel in document["channels"]) >= "2019-07-21T23:25:49"
+    assert max(channel["last"] for channel in document["channels"]) < "2019-07-21T23:26:49"
+
+
+def test_stdout_can_be_the_table(glider: Run) -> None:
+    done = glider("replay", LOGS, "-o", "-", "--quiet")
+    assert done.returncode == 0
+    assert done.stdout.startswith("time_utc,elapsed_s,")
+    assert done.stderr == ""
+
+
+def test_people_see_files_and_channels(glider: Run) -> None:
+    done = glider("replay", LOGS)
+    assert [line.split()[1:4] for line in done.stdout.splitlines() if line.startswith("sea035.12.gli.sub.37")] == [
+        ["seaexplorer", "504", "504"]
+    ]
+    assert any(line.startswith("pitch_deg ") for line in done.stdout.splitlines())

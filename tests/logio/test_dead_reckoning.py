@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pymap3d
@@ -12,6 +13,8 @@ from glidercli.log import Channel, Log
 from glidercli.logio.dead_reckoning import with_track
 
 TIMES = np.arange(0, 1001, 10, dtype=np.int64) * 10**9
+PLANE = 1e-5
+"""m; a fix lies on the ellipsoid, 2 cm below the tangent plane at 500 m: 500 m x 2 cm / 6371 km = 1.6e-6 m sideways."""
 
 
 def log_of(heading: float, **extra: Channel) -> Log:
@@ -38,9 +41,8 @@ def test_the_track_passes_through_the_fixes() -> None:
     ends = TIMES[[0, -1]]
     lat, lon, _ = pymap3d.ned2geodetic(np.array([0.0, 500.0]), np.array([0.0, -80.0]), 0.0, 48.9, -130.6, 0.0)
     track = with_track(log_of(0.0, latitude=Channel("latitude", ends, lat), longitude=Channel("longitude", ends, lon)))
-    # 1 cm: latitude and longitude of the second fix are on the ellipsoid, the track in its tangent plane
-    assert track["north"].values[-1] == pytest.approx(500.0, abs=0.03)
-    assert track["east"].values[-1] == pytest.approx(-80.0, abs=0.03)
+    assert track["north"].values[-1] == pytest.approx(500.0, abs=PLANE)
+    assert track["east"].values[-1] == pytest.approx(-80.0, abs=PLANE)
     assert "depth-averaged current" in track.metadata["track_note"]
     assert float(track.metadata["origin_latitude_deg"]) == pytest.approx(48.9)
 
@@ -58,3 +60,30 @@ def test_a_gap_is_named() -> None:
     base = log_of(0.0)
     gapped = Log({n: Channel(n, late, c.values) for n, c in base.channels.items()}, "measured")
     assert "1 gaps longer than 300 s" in with_track(gapped).metadata["track_note"]
+
+
+def test_a_square_in_a_current_with_a_fix_at_each_corner() -> None:
+    """Legs north, east, south, west; a steady current carries them along, and the closure is that current."""
+    legs, steps, every = 4, 50, 10
+    samples = legs * (steps + 1)  # a step without depth rate turns into the next leg
+    times = np.arange(samples, dtype=np.int64) * every * 10**9
+    heading = np.repeat(np.radians([0.0, 90.0, 180.0, 270.0]), steps + 1)
+    down = np.linspace(0.0, 100.0, steps + 1)
+    depth = np.concatenate([down, down[::-1]] * (legs // 2))
+    pitch = np.repeat(np.radians([-30.0, 30.0] * (legs // 2)), steps + 1)
+    way = np.abs(np.diff(depth)) / math.tan(math.radians(30.0))
+    current_north, current_east = 0.05, -0.1
+    carried = np.arange(samples) * every
+    north = np.concatenate([[0.0], np.cumsum(way * np.cos(heading[1:]))]) + current_north * carried
+    east = np.concatenate([[0.0], np.cumsum(way * np.sin(heading[1:]))]) + current_east * carried
+    corners = np.array([0, *(leg * (steps + 1) for leg in range(1, legs)), samples - 1])
+    lat, lon, _ = pymap3d.ned2geodetic(north[corners], east[corners], 0.0, 48.9, -130.6, 0.0)
+    values = {"depth": depth, "pitch": pitch, "heading": heading}
+    channels = {name: Channel(name, times, value) for name, value in values.items()}
+    channels["latitude"] = Channel("latitude", times[corners], lat)
+    channels["longitude"] = Channel("longitude", times[corners], lon)
+    track = with_track(Log(channels, "measured"))
+    np.testing.assert_allclose(track["north"].values, north, atol=PLANE, rtol=0.0)
+    np.testing.assert_allclose(track["east"].values, east, atol=PLANE, rtol=0.0)
+    found = re.findall(r"current of (\S+) m/s east, (\S+) m/s north", track.metadata["track_note"])
+    assert found == [("-0.100", "0.050")] * legs

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import csv
 import gzip
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
 from conftest import ROOT
 
+from glidercli.channels import PHASES
 from glidercli.errors import InputError
 from glidercli.logio import read
 from glidercli.logio.seaexplorer import read_seaexplorer
@@ -69,7 +72,7 @@ def test_roll_follows_the_rotating_battery_on_real_dives() -> None:
         (GOOD[2], "time goes back"),
         (
             "21/07/2018 10:06:00;100;90.0;16;-20.0;5.0;60.0;4854.5;-13036.2;-500;70;20;",
-            "clock not set: more than 30 days from the file's median time",
+            "clock not set: more than 30 days before the file's other times",
         ),
         ("21/07/2019 10:06:00;0;0;0;0;0;0;0;0;0;0;0;", "all values zero"),
         ("21/07/2019 10:06:00;;;;;;;;;;;;", "no value"),
@@ -114,3 +117,110 @@ def test_salinity_is_derived_by_teos10() -> None:
     assert log["salinity"].origin == log["density"].origin == "derived"
     assert log["conductivity"].origin == "measured"
     assert 31.0 < log["salinity"].values.min() < log["salinity"].values.max() < 35.0  # the north-east Pacific
+
+
+def cells_of(path: Path) -> list[dict[str, str]]:
+    """The file by the csv module alone."""
+    return list(csv.DictReader((line.replace(" ", "") for line in lines_of(path)), delimiter=";"))
+
+
+@pytest.mark.parametrize("path", REAL, ids=lambda path: path.name)
+def test_samples_are_those_that_plain_csv_counts(path: Path) -> None:
+    log, report = read_seaexplorer(path)
+    rows = cells_of(path)
+    assert report.kept == len(rows)  # none of these files holds a line that cannot be used
+    ctd = "GPCTD" if "GPCTD_PRESSURE" in rows[0] else "LEGATO"
+    if "Pitch" in rows[0]:
+        for channel in ("pitch", "roll", "heading", "depth", "ballast_volume", "mass_position", "mass_rotation"):
+            assert len(log[channel]) == len(rows)
+        fixes = sum(
+            row["NavState"] == "116" and (row["Lat"], row["Lon"]) != (before["Lat"], before["Lon"])
+            for before, row in pairwise(rows)
+        )
+        assert len(log.channels.get("latitude", ())) == len(log.channels.get("longitude", ())) == fixes
+        assert sum(row["NavState"] == "100" for row in rows) == (log["phase"].values == PHASES.index("dive")).sum()
+    else:
+        assert len(log["temperature"]) == len(log["pressure"]) == len(rows)
+        assert len(log["conductivity"]) == sum(float(row[f"{ctd}_PRESSURE"]) >= 0.5 for row in rows)
+
+
+@pytest.mark.parametrize("yo", [120, 121])
+def test_salinity_is_that_of_the_instrument(yo: int) -> None:
+    path = ROOT / f"tests/data/seaexplorer/sea063.22.pld1.sub.{yo}.gz"
+    told = [float(row["LEGATO_SALINITY"]) for row in cells_of(path)]
+    # four decimals of conductivity, temperature and salinity make 1e-4, the instrument's own arithmetic the rest;
+    # IPTS-68 taken for ITS-90 would be 7e-4 off, a wrong unit of conductivity by more than the whole
+    np.testing.assert_allclose(read([path]).log["salinity"].values, told, atol=5e-4, rtol=0.0)
+
+
+def test_a_clock_set_late_in_the_file_is_the_one_that_counts(tmp_path: Path) -> None:
+    unset = [f"01/01/2018 00:00:{i:02d};100;90;16;-20;5;{i};4854.5;-13036.2;-500;70;20;" for i in range(30)]
+    log, report = read_seaexplorer(write(tmp_path, *unset, *GOOD))
+    assert report.dropped == (("clock not set: more than 30 days before the file's other times", 30),)
+    assert report.kept == len(log["depth"]) == 6
+    assert str(log["depth"].time_ns[0].astype("datetime64[ns]")).startswith("2019-07-21T10:00:00")
+
+
+def test_a_garbled_date_ahead_moves_no_clock(tmp_path: Path) -> None:
+    garbled = GOOD[5].replace("21/07/2019", "21/07/2091")
+    _, report = read_seaexplorer(write(tmp_path, *GOOD[:5], garbled))
+    assert report.dropped == (("time more than 30 days after the file's other times", 1),)
+    assert report.kept == 5
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words", "channel"),
+    [
+        ("-20.0;5.0", "abc;5.0", "Pitch: 1 cells left out that are no number", "pitch"),
+        ("-20.0;5.0", "inf;5.0", "Pitch: 1 cells left out that are no number", "pitch"),
+        ("-20.0;5.0", "-9999;5.0", "Pitch: 1 cells of 9999 or -9999 left out, no value", "pitch"),
+        ("-20.0;5.0", "-91;5.0", "Pitch: 1 values outside -90..90 deg left out", "pitch"),
+        (";100;90.0", ";105;90.0", "NavState: 1 values left out that are no phase of flight (105)", "phase"),
+    ],
+)
+def test_cells_left_out_are_told_of(tmp_path: Path, old: str, new: str, words: str, channel: str) -> None:
+    log, report = read_seaexplorer(write(tmp_path, *GOOD[:5], GOOD[5].replace(old, new)))
+    assert report.records == report.kept == 6
+    assert words in report.warnings
+    assert len(log[channel]) == 5
+
+
+def test_no_position_is_no_fix_and_a_blank_makes_none(tmp_path: Path) -> None:
+    places = ["4854.500;-13036.200", "0;0", "4854.500;-13036.200", ";", "4854.500;-13036.200", "4854.700;-13036.200"]
+    rows = [f"21/07/2019 10:0{i}:00;116;90.0;16;0;0;2.0;{place};0;70;0;" for i, place in enumerate(places)]
+    log, report = read_seaexplorer(write(tmp_path, *rows))
+    assert log["latitude"].values.tolist() == [pytest.approx(48 + 54.7 / 60)]
+    assert report.warnings == ("Lat, Lon: 4 values left out that are no new fix at the surface, 1 kept",)
+
+
+PAYLOAD = "PLD_REALTIMECLOCK;NAV_DEPTH;GPCTD_CONDUCTIVITY;GPCTD_TEMPERATURE;GPCTD_PRESSURE;"
+
+
+@pytest.mark.parametrize(
+    ("row", "words"),
+    [
+        ("0.0;0.0;0.0", "GPCTD: 1 samples of zeros alone left out"),
+        ("0.01;12.0;0.1", "conductivity: 1 values at less than 0.5 dbar left out: the cell may be in air"),
+        ("4.0;12.0;", "conductivity: 1 values without a pressure left out: the cell may be in air"),
+    ],
+)
+def test_conductivity_out_of_the_water_is_left_out(tmp_path: Path, row: str, words: str) -> None:
+    rows = ["21/07/2019 10:00:00.125;9;4.0;12.0;9.0;", f"21/07/2019 10:00:30.000;9;{row};"]
+    reading = read([write(tmp_path, *rows, head=PAYLOAD)])
+    assert len(reading.log["conductivity"]) == len(reading.log["salinity"]) == 1
+    assert words in reading.files[0].warnings
+    assert reading.files[0].records == reading.files[0].kept + sum(n for _, n in reading.files[0].dropped) == 2
+
+
+def test_a_second_ctd_is_not_mixed_with_the_first(tmp_path: Path) -> None:
+    head = "PLD_REALTIMECLOCK;GPCTD_TEMPERATURE;LEGATO_TEMPERATURE;"
+    log, report = read_seaexplorer(write(tmp_path, "21/07/2019 10:00:00;5;6;", head=head))
+    assert log["temperature"].values.tolist() == [5.0]
+    assert report.warnings == ("LEGATO_TEMPERATURE: 1 values left out, another CTD gives temperature",)
+
+
+def test_bytes_that_are_no_text_make_no_extra_records(tmp_path: Path) -> None:
+    path = write(tmp_path, *GOOD)
+    path.write_bytes(path.read_bytes() + b"\x85\x0b\x0c\x1c;\x85\n")
+    _, report = read_seaexplorer(path)
+    assert (report.records, report.kept, report.dropped) == (7, 6, (("wrong number of fields", 1),))

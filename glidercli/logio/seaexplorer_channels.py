@@ -1,0 +1,172 @@
+"""Which channels do the columns of a SeaExplorer file hold? Units, signs, and which cells are left out, and why.
+
+Cells arrive as numbers: NaN where blank, infinite where the text is no number, 9999 or -9999 where the vehicle says
+that it has no value. Whatever is left out, apart from blanks, is counted in a warning.
+
+Signs and units as brought to channels.py:
+
+    Pitch       nose up positive, as recorded (on dives it is negative).
+    LinPos      mm, forward positive: the battery stands further forward on dives. The actuator's own zero is kept.
+    AngPos      deg; recorded roll follows it with the same sign (correlation 0.99 over six dives of sea035). The
+                model's rotation moves the mass to port and gives negative roll, so mass_rotation = -AngPos.
+    BallastPos  cm3 of oil outside the hull, floating positive.
+    Lat, Lon    ddmm.mmm, repeated under water: a fix counts where it changes at the surface (NavState 116).
+    Heading     from true north, as recorded; Declination is not added. A file with DeadReckoning = 1 shows in Lat, Lon
+                the vehicle's own dead reckoning: in five files of sea063 it runs along Heading to within 0.7 deg,
+                where Declination is 6 deg. The fixes of sea035 cannot tell: over five dives the depth-averaged current
+                scatters by 0.030 m/s whether its 16 deg are added or not.
+    LEGATO_CONDUCTIVITY is in mS/cm, GPCTD_CONDUCTIVITY in S/m.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glidercli.channels import PHASES
+from glidercli.log import Channel
+from glidercli.units import CM3, DBAR, DEGREE, MILLIMETRE
+
+__all__ = ["SENTINELS", "channels_of"]
+
+Array = NDArray[np.float64]
+Times = NDArray[np.int64]
+
+SENTINELS = (9999.0, -9999.0)
+AT_SURFACE = 116
+SUBMERGED = 0.5
+"""Pressure in dbar below which the conductivity cell may be in air."""
+
+
+class Column(NamedTuple):
+    """How a column becomes a channel: value x factor, recorded values from low to high, in ``unit``, allowed."""
+
+    channel: str
+    factor: float
+    low: float
+    high: float
+    unit: str
+
+
+COLUMNS = {
+    "Heading": Column("heading", DEGREE, 0.0, 360.0, "deg"),
+    "Pitch": Column("pitch", DEGREE, -90.0, 90.0, "deg"),
+    "Roll": Column("roll", DEGREE, -180.0, 180.0, "deg"),
+    "Depth": Column("depth", 1.0, -5.0, 1500.0, "m"),
+    "BallastPos": Column("ballast_volume", CM3, -1000.0, 1000.0, "cm3"),
+    "LinPos": Column("mass_position", MILLIMETRE, -200.0, 200.0, "mm"),
+    "AngPos": Column("mass_rotation", -DEGREE, -180.0, 180.0, "deg"),
+    "GPCTD_TEMPERATURE": Column("temperature", 1.0, -3.0, 45.0, "degC"),
+    "GPCTD_CONDUCTIVITY": Column("conductivity", 1.0, 0.0, 7.5, "S/m"),
+    "GPCTD_PRESSURE": Column("pressure", DBAR, -2.0, 1500.0, "dbar"),
+    "LEGATO_TEMPERATURE": Column("temperature", 1.0, -3.0, 45.0, "degC"),
+    "LEGATO_CONDUCTIVITY": Column("conductivity", 0.1, 0.0, 75.0, "mS/cm"),
+    "LEGATO_PRESSURE": Column("pressure", DBAR, -2.0, 1500.0, "dbar"),
+}
+CTDS = ("GPCTD", "LEGATO")
+PHASE_OF_STATE = {100: "dive", 117: "climb", 110: "hover", 118: "hover", 115: "surface", 116: "surface"}
+
+
+def channels_of(time_ns: Times, table: Mapping[str, Array]) -> tuple[list[Channel], list[str]]:
+    """The channels of a table, and a warning for each kind of cell left out.
+
+    time_ns : (n,) UTC ns, strictly increasing. table : cells as recorded, (n,) each, by column name.
+    """
+    warnings: list[str] = []
+    used = {name: _known(name, table[name], warnings) for name in (*COLUMNS, "NavState", "Lat", "Lon") if name in table}
+    _without_zeros(used, warnings)
+    found: dict[str, Channel] = {}
+    for name, column in COLUMNS.items():
+        if name not in used:
+            continue
+        given = np.isfinite(used[name])
+        inside = given & (used[name] >= column.low) & (used[name] <= column.high)
+        outside = int((given & ~inside).sum())
+        if outside:
+            warnings.append(f"{name}: {outside} values outside {column.low:g}..{column.high:g} {column.unit} left out")
+        if inside.any() and column.channel in found:
+            warnings.append(f"{name}: {int(inside.sum())} values left out, another CTD gives {column.channel}")
+        elif inside.any():
+            found[column.channel] = Channel(column.channel, time_ns[inside], used[name][inside] * column.factor)
+    if "conductivity" in found:
+        found["conductivity"] = _submerged(found["conductivity"], found.get("pressure"), warnings)
+    channels = list(found.values())
+    if "NavState" in used:
+        channels.append(_phase(time_ns, used["NavState"], warnings))
+    if {"NavState", "Lat", "Lon"} <= used.keys():
+        channels += _fixes(time_ns, used, warnings)
+    return [channel for channel in channels if len(channel)], warnings
+
+
+def _known(name: str, cells: Array, warnings: list[str]) -> Array:
+    """The cells, NaN where they hold no value; texts and sentinels are counted."""
+    texts, sentinels = np.isinf(cells), np.isin(cells, SENTINELS)
+    if texts.any():
+        warnings.append(f"{name}: {int(texts.sum())} cells left out that are no number")
+    if sentinels.any():
+        warnings.append(f"{name}: {int(sentinels.sum())} cells of 9999 or -9999 left out, no value")
+    return np.where(texts | sentinels, np.nan, cells)
+
+
+def _without_zeros(used: dict[str, Array], warnings: list[str]) -> None:
+    """Take out what a CTD tells when it did not sample: temperature, conductivity and pressure all exactly zero."""
+    for ctd in CTDS:
+        names = [f"{ctd}_{quantity}" for quantity in ("TEMPERATURE", "CONDUCTIVITY", "PRESSURE")]
+        if not set(names) <= used.keys():
+            continue
+        idle = np.all([used[name] == 0.0 for name in names], axis=0)
+        if idle.any():
+            warnings.append(f"{ctd}: {int(idle.sum())} samples of zeros alone left out")
+            used |= {name: np.where(idle, np.nan, used[name]) for name in names}
+
+
+def _phase(time_ns: Times, state: Array, warnings: list[str]) -> Channel:
+    """Phase, derived from the navigation state."""
+    phase = np.full(len(state), np.nan)
+    for number, word in PHASE_OF_STATE.items():
+        phase[state == number] = PHASES.index(word)
+    known = np.isfinite(phase)
+    other = state[np.isfinite(state) & ~known]
+    if len(other):
+        states = ", ".join(f"{number:g}" for number in np.unique(other))
+        warnings.append(f"NavState: {len(other)} values left out that are no phase of flight ({states})")
+    return Channel("phase", time_ns[known], phase[known], "derived")
+
+
+def _fixes(time_ns: Times, used: Mapping[str, Array], warnings: list[str]) -> list[Channel]:
+    """Genuine GPS fixes: where the position changes at the surface; 0, 0 is none."""
+    latitude, longitude = _degrees(used["Lat"]), _degrees(used["Lon"])
+    valid = (np.abs(latitude) <= 90.0) & (np.abs(longitude) <= 180.0) & ((latitude != 0.0) | (longitude != 0.0))
+    rows = np.flatnonzero(valid)
+    changed = np.zeros(len(time_ns), dtype=bool)
+    changed[rows[1:]] = (np.diff(latitude[rows]) != 0.0) | (np.diff(longitude[rows]) != 0.0)
+    fix = changed & (used["NavState"] == AT_SURFACE)
+    others = int(((np.isfinite(latitude) | np.isfinite(longitude)) & ~fix).sum())
+    if others:
+        warnings.append(f"Lat, Lon: {others} values left out that are no new fix at the surface, {int(fix.sum())} kept")
+    return [Channel("latitude", time_ns[fix], latitude[fix]), Channel("longitude", time_ns[fix], longitude[fix])]
+
+
+def _degrees(value: Array) -> Array:
+    """Degrees from ddmm.mmm, signed."""
+    whole = np.floor(np.abs(value) / 100.0)
+    return np.sign(value) * (whole + (np.abs(value) - 100.0 * whole) / 60.0)
+
+
+def _submerged(conductivity: Channel, pressure: Channel | None, warnings: list[str]) -> Channel:
+    """Conductivity where the cell was surely under water."""
+    told = np.array([], np.int64) if pressure is None else pressure.time_ns
+    wet = told if pressure is None else told[pressure.values >= SUBMERGED * DBAR]
+    under = np.isin(conductivity.time_ns, wet)
+    blind = int((~np.isin(conductivity.time_ns, told)).sum())
+    shallow = int((~under).sum()) - blind
+    if shallow:
+        warnings.append(
+            f"conductivity: {shallow} values at less than {SUBMERGED:g} dbar left out: the cell may be in air"
+        )
+    if blind:
+        warnings.append(f"conductivity: {blind} values without a pressure left out: the cell may be in air")
+    return Channel("conductivity", conductivity.time_ns[under], conductivity.values[under])

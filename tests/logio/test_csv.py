@@ -1,0 +1,124 @@
+"""CSV logs: what is written is read back; what cannot be used is named by its line."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from glidercli.channels import CHANNELS, PHASES
+from glidercli.errors import InputError
+from glidercli.log import Channel, Log
+from glidercli.logio import read, write
+from glidercli.logio.csv_log import write_csv_stream
+
+NUMBER = st.floats(-1e12, 1e12, allow_subnormal=False)
+TIMES = st.lists(st.integers(0, 10**18), min_size=1, max_size=12, unique=True).map(sorted)
+
+
+@st.composite
+def logs(draw: st.DrawFn) -> Log:
+    names = draw(st.lists(st.sampled_from(sorted(CHANNELS)), min_size=1, max_size=5, unique=True))
+    channels = {}
+    for name in names:
+        times = np.array(draw(TIMES), dtype=np.int64)
+        kind = st.integers(0, len(PHASES) - 1).map(float) if name == "phase" else NUMBER
+        values = draw(st.lists(kind, min_size=len(times), max_size=len(times)))
+        channels[name] = Channel(name, times, np.array(values))
+    return Log(channels, "measured", {"provenance": "{}"})
+
+
+@settings(deadline=None, max_examples=60)
+@given(log=logs())
+def test_round_trip(log: Log) -> None:
+    with TemporaryDirectory() as folder:
+        write(log, Path(folder) / "a.csv")
+        back = read([Path(folder) / "a.csv"]).log
+    assert set(back.channels) == set(log.channels)
+    for name, channel in log.channels.items():
+        assert back[name].time_ns.tolist() == channel.time_ns.tolist()
+        if CHANNELS[name].factor == 1.0:
+            assert back[name].values.tolist() == channel.values.tolist()
+        else:  # to the table's unit and back: two roundings of at most 1.1e-16 each; below 1e-300 digits run out
+            np.testing.assert_allclose(back[name].values, channel.values, rtol=2.3e-16, atol=1e-300)
+
+
+def test_the_first_line_is_the_column_names() -> None:
+    stream = io.StringIO()
+    log = Log({"pitch": Channel("pitch", np.array([0, 10**9]), np.array([0.0, np.pi]))}, "measured")
+    write_csv_stream(log, stream)
+    assert stream.getvalue().splitlines() == [
+        "time_utc,elapsed_s,pitch_deg",
+        "1970-01-01T00:00:00.000000000Z,0.0,0.0",
+        "1970-01-01T00:00:01.000000000Z,1.0,180.0",
+    ]
+
+
+def test_provenance_stands_beside(tmp_path: Path) -> None:
+    write(Log({"depth": Channel("depth", np.array([0]), np.array([1.0]), "derived")}, "measured"), tmp_path / "a.csv")
+    beside = json.loads((tmp_path / "a.csv-metadata.json").read_text(encoding="utf-8"))
+    assert beside["origin"] == "measured"
+    assert beside["channels"] == {"depth": "derived"}
+    assert beside["metadata"]["provenance"]["program"].startswith("glidercli ")
+
+
+def read_text(tmp_path: Path, text: str) -> tuple[Log, list[tuple[str, int]]]:
+    (tmp_path / "a.csv").write_text(text, encoding="utf-8")
+    reading = read([tmp_path / "a.csv"])
+    (report,) = reading.files
+    assert report.records == report.kept + sum(count for _, count in report.dropped)
+    return reading.log, list(report.dropped)
+
+
+@pytest.mark.parametrize("row", ["1,2", "1,2,3,4", "1"])
+def test_a_row_cut_short_or_too_long_is_dropped(tmp_path: Path, row: str) -> None:
+    log, dropped = read_text(tmp_path, f"elapsed_s,depth_m,pitch_deg\n0,1,2\n{row}\n")
+    assert dropped == [("wrong number of fields", 1)]
+    assert log["depth"].values.tolist() == [1.0]
+
+
+def test_rows_all_longer_than_the_head_give_nothing_wrong(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="no usable record: 2 wrong number of fields"):
+        read_text(tmp_path, "elapsed_s,depth_m\n0,1,7\n1,2,7\n")
+
+
+def test_a_row_without_a_value_is_dropped(tmp_path: Path) -> None:
+    log, dropped = read_text(tmp_path, "elapsed_s,depth_m,phase\n0,1,\n1,,\n2,NaN,dive\n\n")
+    assert dropped == [("no value", 1)]
+    assert len(log["depth"]) == len(log["phase"]) == 1
+
+
+def test_spaces_and_a_byte_order_mark_do_no_harm(tmp_path: Path) -> None:
+    log, _ = read_text(tmp_path, "\ufeffelapsed_s , depth_m, note\r\n0, 1 ,a\r\n1, 2 ,b\r\n")
+    assert log["depth"].values.tolist() == [1.0, 2.0]
+    assert str(log["depth"].time_ns[0].astype("datetime64[ns]")).startswith("2000-01-01T00:00:00")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("elapsed_s,depth_m\n0,1\n\n1,x\n", "line 4: depth_m = 'x'; a number is needed"),
+        ("elapsed_s,depth_m\n0,inf\n", "line 2: depth_m = 'inf'"),
+        ("elapsed_s,phase\n0,dive\n1,glide\n", "line 3: phase = 'glide'; allowed: surface, dive, climb, hover"),
+        ("elapsed_s,depth_m\n0,1\n1e12,2\n", "line 3: the time cannot be read"),
+        ("time_utc,depth_m\n0001-01-01T00:00:00Z,1\n", "line 2: the time cannot be read"),
+        ("elapsed_s,depth_m\n0,1\n\n0,2\n", "line 4: the time does not increase"),
+        ("elapsed_s,depth_m,depth_m\n0,1,2\n", "line 1: column depth_m stands there twice"),
+        ('elapsed_s,depth_m\n0,"1\n1,2\n', "is not a CSV table"),
+    ],
+)
+def test_what_cannot_be_used_is_named_by_its_line(tmp_path: Path, text: str, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        read_text(tmp_path, text)
+
+
+def test_a_format_given_wrongly_is_one_line(tmp_path: Path) -> None:
+    (tmp_path / "a").write_text("Timestamp;NavState;\n21/07/2019 10:00:00;100;\n")
+    with pytest.raises(InputError, match="line 1: no column of times; time_utc or elapsed_s is needed"):
+        read([tmp_path / "a"], format="glider-csv")
