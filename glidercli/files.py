@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import os
+import tomllib
 from collections.abc import Collection, Iterator
 from pathlib import Path
+from typing import Any
 
 from glidercli.errors import InputError, OutputError
 
-__all__ = ["atomic", "check_outputs", "readable_file"]
+__all__ = ["atomic", "check_outputs", "read_toml", "readable_file"]
 
 
 def readable_file(path: Path) -> Path:
@@ -23,6 +25,16 @@ def readable_file(path: Path) -> Path:
     if path.stat().st_size == 0:
         raise InputError(path, "is empty")
     return path
+
+
+def read_toml(path: Path, what: str) -> dict[str, Any]:
+    """The tables of a TOML file; ``what`` says in an error what the file should be, as "a vehicle"."""
+    try:
+        return tomllib.loads(readable_file(path).read_text(encoding="utf-8"))
+    except UnicodeDecodeError:
+        raise InputError(path, f"is not a text file; {what} is a TOML file in UTF-8") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(path, f"is not valid TOML: {error}") from None
 
 
 def check_outputs(paths: Collection[Path], suffixes: Collection[str], force: bool) -> None:

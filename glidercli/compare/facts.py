@@ -34,7 +34,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -42,6 +41,7 @@ from typing import Any
 from glidercli.channels import CHANNELS
 from glidercli.compare.phases import LEGS
 from glidercli.errors import InputError
+from glidercli.files import read_toml
 
 __all__ = ["CHANNEL_QUANTITIES", "FLIGHT", "LOG_QUANTITIES", "Fact", "Facts", "read_facts"]
 
@@ -101,14 +101,7 @@ def read_facts(path: Path) -> Facts:
 
     Raises InputError naming every fault of the file: unknown or missing keys, wrong kinds, units, quantities, names.
     """
-    try:
-        document = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(path, f"cannot be read: {error.strerror or error}") from error
-    except UnicodeDecodeError as error:
-        raise InputError(path, "is not UTF-8 text") from error
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(path, f"is not TOML: {error}") from error
+    document = read_toml(path, "a facts file")
     faults = [f"{key}: unknown; allowed: [facts], [[fact]]" for key in document if key not in ("facts", "fact")]
     head, entries = document.get("facts"), document.get("fact")
     if not isinstance(head, dict):

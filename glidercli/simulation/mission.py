@@ -20,7 +20,6 @@ until_depth_m = 800.0           optional: the leg ends there, else with its cont
 from __future__ import annotations
 
 import datetime
-import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +28,7 @@ from pydantic.dataclasses import dataclass
 
 from glidercli import shipped
 from glidercli.errors import InputError
-from glidercli.files import readable_file
+from glidercli.files import read_toml
 
 __all__ = ["Leg", "Mission", "load_mission"]
 
@@ -77,13 +76,8 @@ def load_mission(name_or_path: str | Path) -> tuple[Mission, Path]:
     elif Path(text).suffix == "" and not Path(text).exists():
         raise InputError(text, f"is no mission; shipped are {', '.join(shipped.folders())}, or give a .toml file")
     else:
-        path = readable_file(Path(text))
-    try:
-        given = tomllib.loads(path.read_text(encoding="utf-8"))
-    except UnicodeDecodeError:
-        raise InputError(path, "is not a text file; a mission is a TOML file in UTF-8") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(path, f"is not valid TOML: {error}") from None
+        path = Path(text)
+    given = read_toml(path, "a mission")
     try:
         return TypeAdapter(Mission).validate_python(given), path
     except ValidationError as error:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-import tomllib
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
 from pydantic import TypeAdapter, ValidationError
 
 from glidercli.errors import InputError
-from glidercli.files import readable_file
+from glidercli.files import read_toml
 from glidercli.vehicle.quantity import Quantity
 from glidercli.vehicle.vehicle import Vehicle
 
@@ -40,13 +39,8 @@ def load_vehicle(name_or_path: str | Path) -> Vehicle:
     elif Path(text).suffix == "" and not Path(text).exists():
         raise InputError(text, f"is no vehicle; shipped are {', '.join(shipped)}, or give a .toml file")
     else:
-        path = readable_file(Path(text))
-    try:
-        given = tomllib.loads(path.read_text(encoding="utf-8"))
-    except UnicodeDecodeError:
-        raise InputError(path, "is not a text file; a vehicle is a TOML file in UTF-8") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(path, f"is not valid TOML: {error}") from None
+        path = Path(text)
+    given = read_toml(path, "a vehicle")
     try:
         return TypeAdapter(Vehicle).validate_python(given, context={"file": str(path)})
     except ValidationError as error:
