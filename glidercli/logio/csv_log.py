@@ -28,10 +28,15 @@ def metadata_path(path: Path) -> Path:
 
 
 def write_csv_stream(log: Log, stream: TextIO) -> None:
-    """The log as CSV: first line the column names, empty where a channel has no sample; numbers to the last digit."""
+    """The log as CSV: first line the column names, empty where a channel has no sample; numbers to the last digit.
+
+    The last column says of every row what the log is, so that a table parted from its metadata is not taken for more:
+    measured, simulated, or reconstruction for all that was made from one.
+    """
     table = log.table()
     table["time_utc"] = np.datetime_as_string(table["time_utc"].to_numpy(), unit="ns")
     table["time_utc"] += "Z"
+    table["origin"] = "reconstruction" if "reconstruction" in log.metadata else log.origin
     table.to_csv(stream, index=False, lineterminator="\n")
 
 
@@ -93,6 +98,7 @@ def read_csv(path: Path) -> tuple[Log, FileReport]:
         told["time_note"] = "the date is arbitrary: the table has elapsed_s alone"
     if "origin" not in metadata and "origin" not in text:
         told["origin_note"] = "taken as measured: the table does not say where its values come from"
+        warnings.append(told["origin_note"])
     origin = metadata.get("origin") or _origin(path, text, warnings)
     log = Log.from_table(table, origin, told)
     origins = metadata.get("channels", {})

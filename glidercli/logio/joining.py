@@ -24,7 +24,7 @@ def joined(parts: list[Read]) -> tuple[Log, list[FileReport]]:
     """One Log of the logs of several files, and their reports with what joining dropped.
 
     A file's records must come after all earlier ones of the channels that it shares: others are dropped and counted.
-    Navigation and payload share none. Raises InputError where origins differ, or tracks about different places.
+    Navigation and payload share none. Raises InputError where origins, vehicles or the places of tracks differ.
     """
     ordered = sorted(parts, key=lambda part: part[0].start_ns)
     first, source = ordered[0]
@@ -34,6 +34,11 @@ def joined(parts: list[Read]) -> tuple[Log, list[FileReport]]:
     for log, report in ordered:
         if log.origin != first.origin:
             raise InputError(report.path, f"is {log.origin}, {source.path} is {first.origin}; read them one by one")
+        platforms = [item.metadata.get("platform", "") for item in (first, log)]
+        if all(platforms) and platforms[0] != platforms[1]:
+            raise InputError(
+                report.path, f"is of {platforms[1]}, {source.path} of {platforms[0]}; read them one by one"
+            )
         if any("north" in other and "north" in log and _place(other) != _place(log) for other in kept):
             raise InputError(report.path, "has a track about another origin than the files before; read it by itself")
         end = max((reached[name] for name in log.channels if name in reached), default=None)

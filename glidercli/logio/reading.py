@@ -94,8 +94,7 @@ def read(paths: Sequence[str | Path], format: str | None = None) -> Reading:
     reports = [counted.get(report.path, report) for report in reports]
     if any(report.format == "seaexplorer" for report in reports):
         log = with_track(with_derived(log)).with_metadata(
-            title="SeaExplorer log",
-            platform="SeaExplorer",
+            title=f"{log.metadata.get('platform', 'SeaExplorer')} log",
             mass_position_zero="the actuator's own zero (LinPos), not the model's",
             mass_rotation_note="mass_rotation = -AngPos: recorded roll follows AngPos, the model's rotation opposes it",
             heading_note="taken as recorded, from true north; Declination is not added: where a file shows the "

@@ -7,6 +7,7 @@ that cannot be used are counted in warnings (seaexplorer_channels.py, where unit
 
 from __future__ import annotations
 
+import re
 import zlib
 from collections import Counter
 from pathlib import Path
@@ -24,6 +25,8 @@ Array = NDArray[np.float64]
 Times = NDArray[np.int64]
 
 NAVIGATION, PAYLOAD = "Timestamp", "PLD_REALTIMECLOCK"
+NAME = re.compile(r"(sea\d+)\.", re.IGNORECASE)
+"""How a file's name begins; nothing inside the file tells the vehicle."""
 PIECE = 4096
 """Bytes unpacked at a time, so that what stands before a damage is not lost."""
 STRAY = 30 * 86400 * 10**9
@@ -80,7 +83,9 @@ def read_seaexplorer(path: Path) -> tuple[Log, FileReport]:
     good = _usable(time_ns, table, dropped)
     table = {name: values[good] for name, values in table.items()}
     channels, warnings = channels_of(time_ns[good], table)
-    log = Log({channel.name: channel for channel in channels if len(channel)}, "measured")
+    named = NAME.match(path.name)
+    whose = {"platform": f"SeaExplorer {named[1]}"} if named else {}
+    log = Log({channel.name: channel for channel in channels if len(channel)}, "measured", whose)
     kept = int(np.isin(time_ns[good], np.concatenate([c.time_ns for c in channels] or [time_ns[:0]])).sum())
     if kept < good.sum():
         dropped["no usable value"] += int(good.sum()) - kept

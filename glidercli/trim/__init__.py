@@ -37,7 +37,7 @@ def trim(
     Raises
     ------
     InputError
-        A control is not finite, or ``equations`` unknown.
+        A control is not finite, the net buoyancy exceeds the vehicle's weight, or ``equations`` is unknown.
     NoSolutionError
         There is no such flight, or none was found: the message says what fails.
     """
@@ -47,14 +47,12 @@ def trim(
     from glidercli.trim.root import solve_forward
     from glidercli.units import STANDARD_GRAVITY
     from glidercli.vehicle import load_vehicle
+    from glidercli.vehicle.controls import check_controls
 
-    given = {"net buoyancy": net_buoyancy, "mass position": mass_position, "mass rotation": mass_rotation}
-    for name, value in given.items():
-        if not math.isfinite(value):
-            raise InputError(name, f"{value} is not allowed; a finite number is needed")
     if equations not in ("full", "paper"):
         raise InputError("equations", f"{equations!r} is not allowed; full or paper")
     craft = vehicle if isinstance(vehicle, Vehicle) else load_vehicle(vehicle)
+    check_controls(craft, mass_position, mass_rotation, net_buoyancy)
     p = parameters(craft)
     p = without_coupling(p) if equations == "paper" else p
     water = Water(p.rho_0, 0.0, p.T_0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), STANDARD_GRAVITY)

@@ -88,8 +88,8 @@ def newton(start: Array, c: Controls, water: Water, p: Parameters, limit: int = 
     return Solution(x, residual, limit, residual < enough)
 
 
-def _glides(x: Array, c: Controls) -> bool:
-    """Whether a solution is an ordinary one: upright enough, flow from ahead, sinking when heavy."""
+def _glides(x: Array) -> bool:
+    """Whether a solution is an ordinary one: flow from ahead, pitch short of the vertical, roll not far past 90 deg."""
     _, alpha, beta, _, phi, theta = x
     return bool(abs(alpha) < 0.6 and abs(beta) < 0.6 and abs(phi) < math.pi / 2 * 1.2 and abs(theta) < math.pi / 2)
 
@@ -103,7 +103,7 @@ def follow(x: Array, start: Controls, goal: Controls, water: Water, p: Parameter
         c = Controls(*(a + share * (b - a) for a, b in zip(start, goal, strict=True)))
         attempt = newton(x, c, water, p)
         used += attempt.iterations
-        if attempt.converged and _glides(attempt.unknowns, c):
+        if attempt.converged and _glides(attempt.unknowns):
             x, done, solution = attempt.unknowns, share, attempt
         else:
             step /= 2.0
@@ -126,31 +126,28 @@ def solve_forward(goal: Controls, nominal_position: float, water: Water, p: Para
     if goal.mb == 0.0:
         raise NoSolutionError("net buoyancy 0 kg: a neutral glider has no steady flight; give a value other than 0")
     detour = goal._replace(rrx=nominal_position + math.copysign(0.02, goal.mb))
-    best = None
     used = 0
     for via in (goal, detour):
-        straight = via._replace(gamma=0.0)
-        speed, alpha, theta = first_guess(straight, water.gravity, p)
-        first = newton(np.array([speed, alpha, 0.0, 0.0, 0.0, theta]), straight, water, p)
-        used += first.iterations
-        best = best or first
-        x, c, reached = first.unknowns, straight, first
+        c = via._replace(gamma=0.0)
+        speed, alpha, theta = first_guess(c, water.gravity, p)
+        reached = newton(np.array([speed, alpha, 0.0, 0.0, 0.0, theta]), c, water, p)
+        used += reached.iterations
         for stop in (via, goal):
-            if reached.converged and stop != c:
-                reached = follow(x, c, stop, water, p)
+            if reached.converged and _glides(reached.unknowns) and stop != c:
+                reached = follow(reached.unknowns, c, stop, water, p)
                 used += reached.iterations
-                x, c = reached.unknowns, stop
-        if reached.converged:
+                c = stop
+        if reached.converged and _glides(reached.unknowns) and c == goal:
             return reached._replace(iterations=used)
-        best = reached
-    assert best is not None
-    r = residuals(best.unknowns, goal, water, p)
+    r = residuals(reached.unknowns, goal, water, p)
     worst = int(np.abs(r).argmax())
-    V, alpha, beta, _, phi, theta = best.unknowns
+    V, alpha, beta, _, phi, theta = reached.unknowns
     degrees = [f"{name} {math.degrees(value):.1f} deg" for name, value in (
         ("angle of attack", alpha), ("sideslip", beta), ("roll", phi), ("pitch", theta))]  # fmt: skip
+    why = f"the {EQUATIONS[worst]} stays furthest from zero, {r[worst]:.3g}, at"
+    if np.abs(r).max() < tolerance(goal, water):
+        why = "the one found is no ordinary glide, with flow from ahead and the hull short of the vertical:"
     raise NoSolutionError(
-        f"no steady flight found for net buoyancy {goal.mb:g} kg, mass position {goal.rrx:g} m, mass rotation "
-        f"{math.degrees(goal.gamma):g} deg: the {EQUATIONS[worst]} stays furthest from zero, {r[worst]:.3g}, at speed "
-        f"{V:.3f} m/s, {', '.join(degrees)}"
+        f"no steady glide found for net buoyancy {goal.mb:g} kg, mass position {goal.rrx:g} m, mass rotation "
+        f"{math.degrees(goal.gamma):g} deg: {why} speed {V:.3f} m/s, {', '.join(degrees)}"
     )

@@ -52,11 +52,12 @@ def write_log(path: Path, deeper: float = 0.0, turned: float = 0.0, late: float 
     """300 m down in 1000 s and up again, a sample every 5 s; heading turns through north."""
     seconds = np.arange(0.0, 2001.0, 5.0)
     depth = np.interp(seconds, [0.0, 1000.0, 2000.0], [0.0, 300.0, 0.0]) + deeper
-    lines = ["time_utc,elapsed_s,depth_m,pitch_deg,heading_deg"]
+    origin = "simulated" if path.stem == "simulated" else "measured"
+    lines = ["time_utc,elapsed_s,depth_m,pitch_deg,heading_deg,origin"]
     for t, d in zip(seconds, depth, strict=True):
         time = START + np.timedelta64(round((t + late) * 1000), "ms")
         pitch = -30.0 if t <= 1000.0 else 30.0
-        lines.append(f"{time}Z,{t},{d},{pitch},{(350.0 + 0.1 * t + turned) % 360.0}")
+        lines.append(f"{time}Z,{t},{d},{pitch},{(350.0 + 0.1 * t + turned) % 360.0},{origin}")
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return path
 

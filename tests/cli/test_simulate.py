@@ -132,3 +132,12 @@ def test_two_runs_give_the_same_bytes(glider: Run, tmp_path: Path) -> None:
 
 def test_more_samples_than_memory_are_refused(glider: Run) -> None:
     one_line_error(glider("simulate", *CONTROLS, "--duration", "1e8", "--every", "0.001"), "duration", "samples")
+
+
+@pytest.mark.parametrize("rtol", ["1", "1e-14", "nan"])
+def test_a_tolerance_that_gives_no_answer_is_refused(glider: Run, rtol: str) -> None:
+    one_line_error(glider("simulate", *CONTROLS, "--rtol", rtol), "rtol", "1e-13 to 0.001")
+
+
+def test_more_net_buoyancy_than_mass_is_refused(glider: Run) -> None:
+    one_line_error(glider("simulate", "--net-buoyancy", "1e6", *CONTROLS[2:]), "net buoyancy", "65.28 kg")

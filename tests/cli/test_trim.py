@@ -83,3 +83,14 @@ def test_outputs_whole_with_provenance_and_only_forced_over(glider: Run, tmp_pat
 def test_unknown_output_suffix(glider: Run, tmp_path: Path) -> None:
     one_line_error(glider("trim", *PINS, "-o", "t.xyz"), "t.xyz", ".csv")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_an_upside_down_solution_is_no_answer(glider: Run) -> None:
+    """The mass far aft of a sinking vehicle: the one equilibrium has the hull past the vertical."""
+    one_line_error(
+        glider("trim", "--net-buoyancy", "0.3", "--mass-position", "0.3", "--mass-rotation", "0"), "no steady"
+    )
+
+
+def test_more_net_buoyancy_than_mass_is_refused(glider: Run) -> None:
+    one_line_error(glider("trim", "--net-buoyancy", "1e6", *PINS[2:]), "net buoyancy", "65.28 kg")

@@ -194,7 +194,8 @@ def test_every_fault_is_reported_together(tmp_path: Path) -> None:
     [
         (b"[facts", "is not valid TOML"),
         (b"\xff\xfe", "is not a text file"),
-        (b"", "is empty"), (b"# nothing\n", r"\[facts\]: missing"),
+        (b"", "is empty"),
+        (b"# nothing\n", r"\[facts\]: missing"),
         (b"fact = 3\n[facts]\nsource = 's'", r"\[\[fact\]\]: missing"),
     ],
 )

@@ -54,9 +54,9 @@ def test_the_first_line_is_the_column_names() -> None:
     log = Log({"pitch": Channel("pitch", np.array([0, 10**9]), np.array([0.0, np.pi]))}, "measured")
     write_csv_stream(log, stream)
     assert stream.getvalue().splitlines() == [
-        "time_utc,elapsed_s,pitch_deg",
-        "1970-01-01T00:00:00.000000000Z,0.0,0.0",
-        "1970-01-01T00:00:01.000000000Z,1.0,180.0",
+        "time_utc,elapsed_s,pitch_deg,origin",
+        "1970-01-01T00:00:00.000000000Z,0.0,0.0,measured",
+        "1970-01-01T00:00:01.000000000Z,1.0,180.0,measured",
     ]
 
 
@@ -122,3 +122,28 @@ def test_a_format_given_wrongly_is_one_line(tmp_path: Path) -> None:
     (tmp_path / "a").write_text("Timestamp;NavState;\n21/07/2019 10:00:00;100;\n")
     with pytest.raises(InputError, match="line 1: no column of times; time_utc or elapsed_s is needed"):
         read([tmp_path / "a"], format="glider-csv")
+
+
+@pytest.mark.parametrize(
+    ("origin", "metadata", "read_as"),
+    [
+        ("measured", {}, "measured"),
+        ("simulated", {}, "simulated"),
+        ("simulated", {"reconstruction": "invented water"}, "reconstruction"),
+    ],
+)
+def test_a_table_parted_from_its_metadata_is_not_taken_for_more(
+    tmp_path: Path, origin: str, metadata: dict[str, str], read_as: str
+) -> None:
+    with (tmp_path / "a.csv").open("w") as stream:
+        write_csv_stream(
+            Log({"depth": Channel("depth", np.array([0]), np.array([1.0]), origin)}, origin, metadata), stream
+        )
+    log = read([tmp_path / "a.csv"]).log
+    assert log.origin == log["depth"].origin == read_as
+
+
+def test_a_table_that_does_not_say_is_warned_of(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("elapsed_s,depth_m\n0,1\n")
+    reading = read([tmp_path / "a.csv"])
+    assert reading.files[0].warnings == ("taken as measured: the table does not say where its values come from",)

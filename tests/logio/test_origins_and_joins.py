@@ -245,3 +245,8 @@ def test_every_output_carries_provenance(tmp_path: Path, name: str) -> None:
     record = json.loads(read([tmp_path / name]).log.metadata["provenance"])
     assert record["program"].startswith("glidercli ")
     assert record["origin"] == "measured"
+
+
+def test_two_vehicles_are_not_one_log() -> None:
+    with pytest.raises(InputError, match=r"is of SeaExplorer sea063, .* of SeaExplorer sea035; read them one by one"):
+        read([ROOT / "logs/seaexplorer-sea035", ROOT / "tests/data/seaexplorer"])
