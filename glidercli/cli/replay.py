@@ -43,12 +43,12 @@ def replay(
     if json:
         print(json_text(played.document()))
     elif not stdout:
-        print("\n".join(_summary(played.document(), played.log.origin, played.log.metadata)))
+        print("\n".join(_summary(played.document(), played.log.kind, played.log.metadata)))
 
 
-def _summary(d: dict[str, Any], origin: str, metadata: Mapping[str, str]) -> list[str]:
+def _summary(d: dict[str, Any], kind_of_log: str, metadata: Mapping[str, str]) -> list[str]:
     """Files, channels and what to know of them, for people, a line each."""
-    lines = [origin.upper(), f"{'file':<34} {'format':<12} {'records':>8} {'kept':>8}  dropped"]
+    lines = [kind_of_log, f"{'file':<34} {'format':<12} {'records':>8} {'kept':>8}  dropped"]
     for f in d["files"]:
         gone = ", ".join(f"{item['count']} {item['reason']}" for item in f["dropped"]) or "none"
         gone = "; ".join([f["error"], gone] if f["dropped"] else [f["error"]]) if "error" in f else gone

@@ -118,6 +118,7 @@ def test_shipped_mission_flies_from_any_folder_and_says_what_it_is(glider: Run, 
     assert done.returncode == 0, done.stderr
     assert "RECONSTRUCTION" in done.stdout
     assert "reconstruct" in (tmp_path / "trial.csv-metadata.json").read_text()
+    assert glider("replay", "trial.csv").stdout.startswith("SIMULATED FROM A RECONSTRUCTION\n")
 
 
 def test_unknown_mission_names_the_shipped_ones(glider: Run) -> None:
