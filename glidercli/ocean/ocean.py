@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from glidercli.errors import InputError
 from glidercli.ocean import seawater
@@ -109,10 +108,8 @@ class Ocean:
         """The water at one depth, m."""
         return at_depth(self.sea, depth)
 
-    def beyond(self, depth: ArrayLike) -> list[str]:
-        """Warnings where depths flown, m, leave the cast or the current profile, whose end values are held there."""
-        flown = np.asarray(depth, dtype=float)
-        shallowest, deepest = float(flown.min()), float(flown.max())
+    def beyond(self, shallowest: float, deepest: float) -> list[str]:
+        """Warnings where a flight between two depths, m, leaves the cast or current profile, whose ends are held."""
         warnings = []
         for name, profile, given in (
             ("cast", self.water, self.stratified),

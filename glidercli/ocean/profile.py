@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from glidercli.errors import InputError
 from glidercli.kernel import kernel
 
-__all__ = ["Profile", "cubic", "cubic_slope", "locate", "pchip", "slope", "value"]
+__all__ = ["Profile", "cubic", "cubic_slope", "locate", "pchip"]
 
 
 class Profile(NamedTuple):
@@ -100,17 +100,3 @@ def cubic_slope(profile: Profile, interval: int, x: float, column: int) -> float
     c = profile.coefficients
     a3, a2, a1 = c[0, interval, column], c[1, interval, column], c[2, interval, column]
     return float((3.0 * a3 * x + 2.0 * a2) * x + a1)
-
-
-@kernel
-def value(profile: Profile, z: float, column: int) -> float:
-    """One column at depth z, m; the end value beyond the ends."""
-    interval, x, _ = locate(profile, z)
-    return cubic(profile, interval, x, column)
-
-
-@kernel
-def slope(profile: Profile, z: float, column: int) -> float:
-    """Derivative of one column by depth at z, per m; zero at and beyond the ends, where the value is held."""
-    interval, x, beyond = locate(profile, z)
-    return 0.0 if beyond else cubic_slope(profile, interval, x, column)

@@ -25,11 +25,12 @@ from glidercli.simulation.integrator import (
     STEP_TOO_SMALL,
     controls_at,
     integrate,
+    range_of_none,
     state_of,
 )
 from glidercli.simulation.schedule import Schedule
 
-__all__ = ["Flight", "FlightEvent", "fly"]
+__all__ = ["Excursion", "Flight", "FlightEvent", "fly"]
 
 Array = NDArray[np.float64]
 
@@ -54,15 +55,33 @@ class FlightEvent:
 
 
 @dataclasses.dataclass(frozen=True)
+class Excursion:
+    """A flow angle beyond the range that the coefficients were fitted to, counted at every step of the integrator.
+
+    duration : s spent there. first, last : s from the start. largest : rad, magnitude.
+    """
+
+    name: str
+    duration: float
+    first: float
+    last: float
+    largest: float
+
+
+@dataclasses.dataclass(frozen=True)
 class Flight:
     """What came of it.
 
-    times : (n,) s from the start. samples : (n, len(COLUMNS)). wall : seconds of integration alone.
+    times : (n,) s from the start. samples : (n, len(COLUMNS)). depths : least and greatest, m, between samples too.
+    distance : m, length of the horizontal track over ground. wall : seconds of integration alone.
     """
 
     times: Array
     samples: Array
     events: tuple[FlightEvent, ...]
+    excursions: tuple[Excursion, ...]
+    depths: tuple[float, float]
+    distance: float
     evaluations: int
     wall: float
 
@@ -75,7 +94,7 @@ class Flight:
 def observe(
     times: Array, states: Array, knots: Array, values: Array, sea: Sea, p: Parameters, full: bool, out: Array
 ) -> None:
-    """Fill ``out`` (n, len(COLUMNS)) with what states (n, 14) at times (n,) mean: velocities, controls, water."""
+    """Fill ``out`` (n, len(COLUMNS)) with what states (n, 15) at times (n,) mean: velocities, controls, water."""
     segment = -1
     for i in range(len(times)):
         while segment < len(knots) - 1 and knots[segment + 1] <= times[i]:
@@ -97,10 +116,10 @@ def observe(
 
 
 def scales_of(p: Parameters) -> Array:
-    """Sizes below which an error in a state does not matter, (14,): 1 m, 1, 0.1 m/s and 0.01 rad/s as momentum."""
+    """Sizes below which an error in a state does not matter, (15,): 1 m, 1, 0.1 m/s and 0.01 rad/s as momentum."""
     mass = 0.1 * (p.ms + p.mr)
     return np.array(
-        [math.inf, math.inf, 1.0, 1.0, 1.0, 1.0, 1.0, mass, mass, mass, *(0.01 * i for i in p.Is), math.inf]
+        [math.inf, math.inf, 1.0, 1.0, 1.0, 1.0, 1.0, mass, mass, mass, *(0.01 * i for i in p.Is), math.inf, math.inf]
     )
 
 
@@ -115,12 +134,14 @@ def fly(
     every: float = 1.0,
     rtol: float = 1e-8,
     full: bool = True,
+    fitted_angle: float = math.inf,
     plain: bool = False,
 ) -> Flight:
     """Fly the legs from rest in the water, level, until the last ends, the surface is reached or time is up.
 
     duration, every : s. start_depth : m. heading : rad. rtol : relative tolerance of the integrator.
     full : the whole model; False leaves out the shear's own term and the momentum of the moving actuator.
+    fitted_angle : rad, beyond which angle of attack and sideslip are noted as excursions.
     plain : run the same source without numba, some hundred times slower; for tests.
 
     Raises
@@ -149,7 +170,10 @@ def fly(
     y[3:7] = quaternion_from_euler(0.0, 0.0, heading)
     grid = np.arange(1, math.floor(duration / every * (1.0 + 1e-12)) + 1) * every
     t, step, scales = 0.0, FIRST_STEP, scales_of(p)
-    nowhere = (grid[:0], np.empty((0, SIZE)), rtol, scales)
+    reached = range_of_none(float(fitted_angle))
+    reached.depths[:] = start_depth
+    common = (rtol, scales, reached)
+    nowhere = (grid[:0], np.empty((0, SIZE)), *common)
     run_leg(y, 0.0, 0.0, step, legs[0].times, legs[0].values, sea, p, full, math.inf, SURFACE, *nowhere)  # compiles
     times, samples, events, evaluations, wall = [0.0], [], [], 0, 0.0
     for number, leg in enumerate(legs):
@@ -161,7 +185,7 @@ def fly(
         until = min(duration, knots[-1]) if ends_with_controls else duration
         out = np.empty((len(grid), SIZE))
         began = time.perf_counter()
-        run = run_leg(y, t, until, step, knots, leg.values, sea, p, full, floor, ceiling, grid, out, rtol, scales)
+        run = run_leg(y, t, until, step, knots, leg.values, sea, p, full, floor, ceiling, grid, out, *common)
         wall += time.perf_counter() - began
         evaluations += run.evaluations
         if run.status == STEP_TOO_SMALL:
@@ -185,4 +209,14 @@ def fly(
         events.append(FlightEvent(name, t, float(y[2])))
         if t >= duration:
             break
-    return Flight(np.array(times), np.vstack(samples), tuple(events), evaluations, wall)
+    angles = dict(zip(("angle of attack", "sideslip"), reached.angles.tolist(), strict=True))
+    return Flight(
+        times=np.array(times),
+        samples=np.vstack(samples),
+        events=tuple(events),
+        excursions=tuple(Excursion(name, *row) for name, row in angles.items() if row[0] > 0.0),
+        depths=(float(reached.depths[0]), float(reached.depths[1])),
+        distance=float(y[14]),
+        evaluations=evaluations,
+        wall=wall,
+    )

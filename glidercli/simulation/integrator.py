@@ -4,9 +4,9 @@ An event is a knot of the controls, where their rates change, or a depth that en
 The pair, its step control and its dense output are those of Dormand & Prince (1980) as given in Hairer, Norsett &
 Wanner, Solving Ordinary Differential Equations I, section II.5-6.
 
-The state is an array of 14: position (NED, m), attitude q_wxyz, momentum P and Pi through water, energy lost to the
-water (J). Nothing depends on the horizontal position or on the energy, so they stay out of the error norm: a uniform
-current then changes neither step nor motion.
+The state is an array of 15: position (NED, m), attitude q_wxyz, momentum P and Pi through water, energy lost to the
+water (J), length of the horizontal track over ground (m). Nothing depends on the horizontal position, the energy or the
+track, so they stay out of the error norm: a uniform current then changes neither step nor motion.
 """
 
 from __future__ import annotations
@@ -17,16 +17,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from glidercli.frames import Vector
 from glidercli.kernel import kernel
-from glidercli.model.equations import State, rates
+from glidercli.model.equations import State, rates, through_water
+from glidercli.model.hydrodynamics import flow_angles
 from glidercli.model.parameters import Controls, Parameters
 from glidercli.ocean.water import Sea, at_depth
 
-__all__ = ["Run", "controls_at", "integrate", "state_of"]
+__all__ = ["Range", "Run", "controls_at", "integrate", "range_of_none", "state_of"]
 
 Array = NDArray[np.float64]
 
-SIZE = 14
+SIZE = 15
 REACHED_END, REACHED_FLOOR, REACHED_CEILING, STEP_TOO_SMALL = 0, 1, 2, 3
 
 _SMALLEST_STEP = 1e-9  # s
@@ -95,6 +97,7 @@ def slope_into(
     out[7], out[8], out[9] = r.P
     out[10], out[11], out[12] = r.Pi
     out[13] = r.power
+    out[14] = math.hypot(r.position[0], r.position[1])
 
 
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
@@ -184,17 +187,72 @@ def crossing(y: Array, new: Array, h: float, k: Array, depth: float, work: Array
     return high
 
 
+class Range(NamedTuple):
+    """How far a flight went, kept at every accepted step, so that it does not depend on the samples asked for.
+
+    depths : (2,) least and greatest depth, m. fitted : rad, magnitude to which the flow angles were fitted.
+    angles : (2, 4), for angle of attack and sideslip: seconds beyond ``fitted``, first and last time there, s, and the
+        largest magnitude, rad.
+    """
+
+    depths: Array
+    fitted: float
+    angles: Array
+
+
+def range_of_none(fitted: float) -> Range:
+    """The range of a flight that has not begun."""
+    return Range(np.array([math.inf, -math.inf]), fitted, np.array([[0.0, math.inf, -math.inf, 0.0]] * 2))
+
+
+@kernel
+def note_depth(reached: Range, depth: float) -> None:
+    """Widen the range to a depth, m."""
+    reached.depths[0] = min(reached.depths[0], depth)
+    reached.depths[1] = max(reached.depths[1], depth)
+
+
+@kernel
+def note_flow_angles(reached: Range, t: float, h: float, V: Vector) -> None:
+    """Note angle of attack and sideslip at the end t of a step of h, s, with the velocity through water V, m/s."""
+    _, alpha, beta = flow_angles(V)
+    for i, angle in enumerate((abs(alpha), abs(beta))):
+        if angle > reached.fitted:
+            reached.angles[i, 0] += h
+            reached.angles[i, 1] = min(reached.angles[i, 1], t)
+            reached.angles[i, 2] = max(reached.angles[i, 2], t)
+            reached.angles[i, 3] = max(reached.angles[i, 3], angle)
+
+
+@kernel
+def turning_depth(y: Array, new: Array, h: float, k: Array, work: Array) -> float:
+    """Depth, m, at which the vehicle turns within a step over which its vertical velocity changes sign."""
+    low, high = 0.0, 1.0
+    down = k[0, 2] > 0.0
+    for _ in range(40):
+        third = (high - low) / 3.0
+        dense(work, y, new, h, k, low + third)
+        before = work[2]
+        dense(work, y, new, h, k, high - third)
+        if (work[2] > before) == down:
+            low += third
+        else:
+            high -= third
+    return float(work[2])
+
+
 @kernel
 def integrate(
     start: Array, t: float, t_end: float, step: float, times: Array, values: Array, sea: Sea, p: Parameters, full: bool,
-    floor: float, ceiling: float, grid: Array, out: Array, rtol: float, scales: Array,
+    floor: float, ceiling: float, grid: Array, out: Array, rtol: float, scales: Array, reached: Range,
 ) -> Run:  # fmt: skip
     """Integrate from time t until t_end, the floor (reached going down) or the ceiling (reached going up).
 
-    start : (14,) state at t. step : first step to try, s. times, values : the controls (see ``controls_at``).
+    start : (15,) state at t. step : first step to try, s. times, values : the controls (see ``controls_at``).
     floor, ceiling : depths in m that end the run; infinite where there is none.
-    grid : (m,) increasing times in s at which ``out`` (m, 14) is filled, those in (t, end].
-    rtol : tolerance relative to scales + |state|; scales (14,), infinite for columns that do not count.
+    grid : (m,) increasing times in s at which ``out`` (m, 15) is filled, those in (t, end].
+    rtol : tolerance relative to scales + |state|; scales (15,), infinite for columns that do not count.
+    reached : widened at every step.
     """
     y, new, work, k = start.copy(), np.empty(SIZE), np.empty(SIZE), np.empty((7, SIZE))
     segment = -1
@@ -207,9 +265,9 @@ def integrate(
     first_row = row
     while t < t_end:
         knot = times[segment + 1] if segment + 1 < len(times) else math.inf
-        limit = min(t_end, knot)
-        h = min(step, _LARGEST_STEP, limit - t)
-        last = h >= (limit - t) * (1.0 - 1e-12)
+        stop = min(t_end, knot)
+        h = min(step, _LARGEST_STEP, stop - t)
+        last = h >= (stop - t) * (1.0 - 1e-12)
         stages(y, t, h, k, new, segment, times, values, sea, p, full)
         evaluations += 6
         error = error_norm(y, new, h, k, rtol, scales)
@@ -221,7 +279,7 @@ def integrate(
             continue
         grown = h * min(5.0, 0.9 * max(error, 1e-10) ** -0.2)
         step = max(step, grown) if last and h < step else grown
-        t_new, share = (limit if last else t + h), 1.0
+        t_new, share = (stop if last else t + h), 1.0
         if new[2] >= floor and y[2] < floor:
             share, status = crossing(y, new, h, k, floor, work), REACHED_FLOOR
         elif new[2] <= ceiling and y[2] > ceiling:
@@ -231,17 +289,23 @@ def integrate(
         while row < len(grid) and grid[row] <= t_new:
             dense(out[row], y, new, h, k, (grid[row] - t) / h)
             row += 1
-        if status != REACHED_END:
+        if share == 1.0 and k[0, 2] * k[6, 2] < 0.0:
+            note_depth(reached, turning_depth(y, new, h, k, work))
+        if status == REACHED_END:
+            norm = math.sqrt(new[3] ** 2 + new[4] ** 2 + new[5] ** 2 + new[6] ** 2)
+            y[:] = new
+            for j in range(3, 7):
+                y[j] = y[j] / norm
+        else:
             dense(work, y, new, h, k, share)
             y[:] = work
             y[2] = floor if status == REACHED_FLOOR else ceiling
-            t = t_new
-            break
+        note_depth(reached, y[2])
+        V, _ = through_water(state_of(y), controls_at(times, values, t_new, segment), at_depth(sea, y[2]), p, full)
+        note_flow_angles(reached, t_new, t_new - t, V)
         t = t_new
-        norm = math.sqrt(new[3] ** 2 + new[4] ** 2 + new[5] ** 2 + new[6] ** 2)
-        y[:] = new
-        for j in range(3, 7):
-            y[j] = y[j] / norm
+        if status != REACHED_END:
+            break
         if t >= knot:
             segment += 1
             slope_into(k[0], t, y, segment, times, values, sea, p, full)

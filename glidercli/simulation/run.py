@@ -8,8 +8,6 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from glidercli.errors import InputError, UsageError
 from glidercli.vehicle.controls import check_controls
 from glidercli.vehicle.vehicle import Vehicle
@@ -17,6 +15,7 @@ from glidercli.vehicle.vehicle import Vehicle
 if TYPE_CHECKING:
     from glidercli.log import Log
     from glidercli.ocean.ocean import Ocean
+    from glidercli.simulation.flight import Flight
     from glidercli.simulation.mission import Mission
     from glidercli.simulation.schedule import Schedule
 
@@ -159,6 +158,7 @@ def simulate(
         every=every,
         rtol=rtol,
         full=equations == "full",
+        fitted_angle=craft.hydrodynamics.fitted_angle,
     )
     place = None
     if plan and plan.latitude is not None and plan.longitude is not None:
@@ -173,15 +173,14 @@ def simulate(
         origin="simulated",
         metadata=_metadata(plan, craft, equations),
     )
-    steps = np.hypot(np.diff(flight.column("north")), np.diff(flight.column("east")))
-    warnings = [*ocean.warnings, *_warnings(flight, craft, legs), *ocean.beyond(flight.column("down"))]
+    warnings = [*ocean.warnings, *_warnings(flight, craft, legs), *ocean.beyond(*flight.depths)]
     if ocean.stratified and not ocean.has_temperature and p.chi > 0.0:
         warnings.append("the water has no temperature: thermal expansion of the hull is left out")
     return Simulation(
         log=log,
         duration=float(flight.times[-1]),
-        max_depth=float(flight.column("down").max()),
-        distance=float(steps.sum()),
+        max_depth=flight.depths[1],
+        distance=flight.distance,
         energy=float(flight.column("energy")[-1]),
         wall=flight.wall,
         warnings=tuple(warnings),
@@ -251,23 +250,14 @@ def _metadata(plan: Mission | None, craft: Vehicle, equations: str) -> dict[str,
     return told
 
 
-def _warnings(flight: Any, craft: Vehicle, legs: list[Schedule]) -> list[str]:
+def _warnings(flight: Flight, craft: Vehicle, legs: list[Schedule]) -> list[str]:
     """Where the flight left the range that the model was fitted to, and controls beyond the vehicle's limits."""
-    found = []
-    fitted = craft.hydrodynamics.fitted_angle
-    u, v, w = (flight.column(name) for name in "uvw")
-    speed = np.sqrt(u * u + v * v + w * w)
-    for name, angle in (
-        ("angle of attack", np.arctan2(w, u)),
-        ("sideslip", np.arcsin(np.clip(v / np.where(speed > 0.0, speed, 1.0), -1.0, 1.0))),
-    ):
-        beyond = (np.abs(angle) > fitted) & (speed > 0.0)
-        if beyond.any():
-            times = flight.times[beyond]
-            found.append(
-                f"{name} was beyond the fitted {math.degrees(fitted):g} deg in {int(beyond.sum())} of {len(beyond)} "
-                f"samples, {times[0]:.0f} to {times[-1]:.0f} s, largest {math.degrees(np.abs(angle).max()):.1f} deg"
-            )
+    fitted = math.degrees(craft.hydrodynamics.fitted_angle)
+    found = [
+        f"{e.name} was beyond the fitted {fitted:g} deg for {e.duration:.1f} s, {e.first:.1f} to {e.last:.1f} s, "
+        f"largest {math.degrees(e.largest):.1f} deg"
+        for e in flight.excursions
+    ]
     outside = {name for leg in legs for row in leg.values for name in craft.actuators.outside(*row)}
     found += [f"{name.replace('_', ' ')} is beyond the limits of {craft.name}" for name in sorted(outside)]
     return found

@@ -159,3 +159,16 @@ def test_moving_mass_keeps_momentum_of_the_whole(p: Parameters) -> None:
         if i == 0:
             start = centre
         np.testing.assert_allclose(centre, start, atol=1e-8)  # m; 4e-8 would be a thousandth of the pump's share
+
+
+def test_what_is_told_of_a_flight_does_not_depend_on_its_samples() -> None:
+    """Depth reached, track and excursions are kept step by step; the samples of 0.1 s are the independent witness."""
+    coarse, fine = (glidercli.simulate("south-china-sea-2011", every=every) for every in (2000.0, 0.1))
+    assert coarse.warnings == fine.warnings
+    assert (coarse.max_depth, coarse.distance) == (fine.max_depth, fine.distance)
+    depth, north, east = (fine.log[name].values for name in ("depth", "north", "east"))
+    assert fine.max_depth == pytest.approx(depth.max(), abs=1e-5)  # at apogee 0.05 s make 0.5 * 0.005 m/s2 * 0.05^2 m
+    assert fine.max_depth >= depth.max() - 1e-9  # rounding of the dense output
+    way = float(np.hypot(np.diff(north), np.diff(east)).sum())
+    assert fine.distance == pytest.approx(way, rel=1e-5)  # chords of 0.1 s on turns of some metres
+    assert any("angle of attack was beyond" in line for line in coarse.warnings)

@@ -1,6 +1,5 @@
 import math
 
-import numpy as np
 import pytest
 
 from glidercli.errors import InputError
@@ -26,7 +25,7 @@ def test_uniform_water_is_the_same_everywhere():
         assert water.current == water.shear == (0.0, 0.0, 0.0)
         assert math.isnan(water.temperature)
     assert Ocean.uniform(1025.0, temperature_reference=15.0).at(3.0).temperature == 15.0
-    assert ocean.beyond([0.0, 6000.0]) == []
+    assert ocean.beyond(0.0, 6000.0) == []
 
 
 def test_gravity_follows_the_latitude_that_the_caller_gives(ctd):
@@ -66,11 +65,11 @@ def test_beyond_the_current_profile_it_is_held(sheared):
 
 def test_a_flight_beyond_the_profiles_is_said_with_its_range(ctd, sheared):
     ocean = Ocean.build(1025.0, read_ctd(ctd / "CTD_with_sigma_e00.cnv"), sheared)
-    assert ocean.beyond(np.array([12.0, 28.0])) == []
-    assert ocean.beyond([12.0, 40.0]) == [
+    assert ocean.beyond(12.0, 28.0) == []
+    assert ocean.beyond(12.0, 40.0) == [
         "the flight spans 12.0 to 40.0 m, the current profile 10.0 to 30.0 m; its end values are held beyond"
     ]
-    assert len(ocean.beyond([0.0, 300.0])) == 2
+    assert len(ocean.beyond(0.0, 300.0)) == 2
 
 
 def test_a_cast_without_temperature_gives_the_reference(write):

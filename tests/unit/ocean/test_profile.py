@@ -7,14 +7,23 @@ from hypothesis import strategies as st
 
 from glidercli.errors import InputError
 from glidercli.kernel import compiled, kernel
-from glidercli.ocean.profile import Profile, pchip, slope, value
+from glidercli.ocean.profile import Profile, cubic, cubic_slope, locate, pchip
 
 ROUND_OFF = 1e-12  # a few operations in double precision on values of order ten
 
 
 @kernel
 def value_and_slope(profile: Profile, z: float, column: int) -> tuple[float, float]:
-    return value(profile, z, column), slope(profile, z, column)
+    interval, x, beyond = locate(profile, z)
+    return cubic(profile, interval, x, column), 0.0 if beyond else cubic_slope(profile, interval, x, column)
+
+
+def value(profile, z, column):
+    return value_and_slope(profile, z, column)[0]
+
+
+def slope(profile, z, column):
+    return value_and_slope(profile, z, column)[1]
 
 
 def test_a_straight_line_is_reproduced_with_its_slope():
