@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from glidercli.channels import CHANNELS, PHASES
+from glidercli.channels import CHANNELS
 from glidercli.errors import InputError, UsageError
 from glidercli.files import check_outputs
 from glidercli.log import Channel, Log
@@ -53,16 +53,15 @@ def _channel(channel: Channel) -> dict[str, Any]:
     """One channel in the table's name and unit."""
     spec = CHANNELS[channel.name]
     values = channel.values * spec.factor
-    least, most = float(values.min()), float(values.max())
-    words = channel.name == "phase"
+    ordered = channel.name != "phase"  # its codes stand for words
     return {
         "name": spec.column,
         "unit": spec.column_unit,
         "samples": len(channel),
         "first": iso(channel.time_ns[0]),
         "last": iso(channel.time_ns[-1]),
-        "minimum": PHASES[int(least)] if words else least,
-        "maximum": PHASES[int(most)] if words else most,
+        "minimum": float(values.min()) if ordered else None,
+        "maximum": float(values.max()) if ordered else None,
         "origin": channel.origin,
     }
 

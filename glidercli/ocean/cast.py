@@ -12,7 +12,7 @@ from glidercli.errors import InputError
 from glidercli.ocean import seawater
 from glidercli.ocean.cnv import is_cnv, parse_cnv
 from glidercli.ocean.downcast import DEEPEST_DBAR, SALINITY, TEMPERATURE, downcast
-from glidercli.ocean.seabird import samples
+from glidercli.ocean.seabird import PRESSURE, samples
 from glidercli.ocean.source import listed, read_text
 from glidercli.ocean.table import Table, parse_table
 
@@ -77,13 +77,18 @@ class _Place:
     def used(self) -> float:
         return 0.0 if self.latitude is None else self.latitude
 
-    def warnings(self, pressure_used: bool, salinity_used: bool) -> tuple[str, ...]:
-        """What is not known, and how much that matters."""
+    def warnings(self, missing: str | None, salinity_used: bool) -> tuple[str, ...]:
+        """What is not known, and how much that matters. missing : "depth" or "pressure" where it had to be computed."""
         lines = []
-        if self.latitude is None and pressure_used:
+        if self.latitude is None and missing == "depth":
             lines.append(
                 "latitude unknown, 0 deg is used: depth for a pressure is too great by up to 0.53 % "
                 "(5.2 m at 1000 dbar, at the poles)"
+            )
+        if self.latitude is None and missing == "pressure":
+            lines.append(
+                "latitude unknown, 0 deg is used: pressure for a depth is too small by up to 0.53 % "
+                "(5.4 dbar at 1000 m, at the poles)"
             )
         if (self.longitude is None or self.latitude is None) and salinity_used:
             lines.append(
@@ -146,7 +151,7 @@ def _from_cnv(path: Path, text: str, latitude: float | None) -> Cast:
         time_utc=file.time_utc,
         source=path,
         dropped=dropped,
-        warnings=(*warnings, *place.warnings(True, True)),
+        warnings=(*warnings, *place.warnings("depth" if file.first(*PRESSURE) else "pressure", True)),
     )
 
 
@@ -165,6 +170,7 @@ def _from_table(table: Table, latitude: float | None) -> Cast:
     if absolute is None and salinity is not None:
         absolute = _absolute_salinity(salinity, pressure, place)
     density, warnings = _density(table, absolute, temperature, pressure)
+    missing = next((name.split("_")[0] for name in ("depth_m", "pressure_dbar") if name not in table), None)
     if unknown := table.unknown(_USED):
         warnings += (f"columns not known and not used: {listed(unknown)}",)
     return Cast(
@@ -179,7 +185,7 @@ def _from_table(table: Table, latitude: float | None) -> Cast:
         time_utc=(table.cells["time_utc"][0] or None) if "time_utc" in table else None,
         source=table.path,
         dropped=(),
-        warnings=(*place.warnings(not {"depth_m", "pressure_dbar"} <= set(table.columns), by_place), *warnings),
+        warnings=(*place.warnings(missing, by_place), *warnings),
     )
 
 

@@ -69,7 +69,7 @@ def read_adcp(path: str | Path) -> CurrentProfile:
     up = measured[2] if _UP in table else np.zeros(len(table))
     velocity = np.stack([east, north, up])
 
-    gap = ~np.isfinite(velocity).all(axis=0)
+    gap = np.isnan(velocity).any(axis=0)
     marked = np.isclose(velocity, _BAD_VELOCITY, rtol=0.0, atol=5e-4).any(axis=0) & ~gap
     fast = (np.linalg.norm(velocity, axis=0) > _GREATEST_SPEED) & ~gap & ~marked
     faults = (

@@ -15,7 +15,7 @@ from glidercli.ocean.cnv import CnvColumn, CnvFile
 from glidercli.ocean.downcast import Samples
 from glidercli.ocean.source import listed
 
-__all__ = ["samples"]
+__all__ = ["PRESSURE", "samples"]
 
 Array = NDArray[np.float64]
 

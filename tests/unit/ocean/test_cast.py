@@ -142,7 +142,7 @@ def test_a_latitude_serves_only_where_the_file_has_none(ctd):
     assert read_ctd(ctd / name, latitude=10.0).latitude == pytest.approx(39 + 16.23 / 60)
     without = read_ctd(ctd / "press-pass-prDE.cnv")
     assert without.latitude is None
-    assert "latitude unknown, 0 deg is used" in without.warnings[0]
+    assert "latitude unknown, 0 deg is used: depth for a pressure is too great" in without.warnings[0]
     given_one = read_ctd(ctd / "press-pass-prDE.cnv", latitude=60.0)
     assert given_one.latitude == 60.0
     assert not any("latitude unknown" in line for line in given_one.warnings)
@@ -313,3 +313,17 @@ def test_any_bytes_are_a_cast_or_one_line(tmp_path_factory, data):
     with pytest.raises(InputError) as caught:  # random bytes never spell the columns of a cast
         read_ctd(path)
     assert len(str(caught.value).splitlines()) == 1
+
+
+def test_without_a_latitude_the_warning_names_what_was_computed(write):
+    by_depth = read_ctd(write("cast.csv", "depth_m,density_kg_m3\n0,1021\n1000,1025.5\n"))
+    assert by_depth.warnings == (
+        "latitude unknown, 0 deg is used: pressure for a depth is too small by up to 0.53 % (5.4 dbar at 1000 m, at "
+        "the poles)",
+    )
+    at_the_pole = read_ctd(write("cast.csv", "depth_m,density_kg_m3\n0,1021\n1000,1025.5\n"), latitude=90.0)
+    least, most = by_depth.pressure_dbar[-1], at_the_pole.pressure_dbar[-1]
+    assert most - least == pytest.approx(5.4, abs=0.05)  # as many digits as the message has
+    assert most / least - 1.0 == pytest.approx(0.0053, abs=5e-5)
+    both = read_ctd(write("cast.csv", "depth_m,pressure_dbar,density_kg_m3\n0,0,1021\n1000,1010,1025.5\n"))
+    assert both.warnings == ()
