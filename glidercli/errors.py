@@ -1,10 +1,10 @@
 """What can go wrong, as one tree; a command turns each into one line and an exit code.
 
     GliderError                 exit 1
-    ├── InputError              a file or a value that cannot be used: file, what, where, what is allowed
+    ├── InputError              a file or a number that cannot be used: file, what, where, what is allowed
     ├── OutputError             an output that cannot be written
     ├── NoSolutionError         a question that has no answer: the nearest point and what fails there
-    └── UsageError              exit 2: options that do not make a question, such as too few pins of a trim
+    └── UsageError              exit 2: options that do not make a question: missing, contradictory, an unknown choice
 
 Solvers report their outcome as data; exceptions are for input that cannot be used and questions without an answer.
 """

@@ -11,7 +11,10 @@ from typing import Any
 
 from glidercli.errors import InputError, OutputError
 
-__all__ = ["atomic", "check_outputs", "read_toml", "readable_file"]
+__all__ = ["atomic", "check_not_inputs", "check_outputs", "read_toml", "readable_file"]
+
+_LONGEST_NAME = 200
+"""bytes; file systems take 255, and the name while writing and that of the metadata are longer."""
 
 
 def readable_file(path: Path) -> Path:
@@ -48,6 +51,8 @@ def check_outputs(paths: Collection[Path], suffixes: Collection[str], force: boo
             continue
         if path.suffix.lower() not in suffixes:
             raise OutputError(path, f"unknown output {path.suffix or 'without ending'}; allowed: {' '.join(suffixes)}")
+        if len(os.fsencode(path.name)) > _LONGEST_NAME:
+            raise OutputError(path, f"the name is too long; at most {_LONGEST_NAME} bytes are allowed")
         if path.resolve() in seen:
             raise OutputError(path, "is named twice as output")
         seen.add(path.resolve())
@@ -61,6 +66,14 @@ def check_outputs(paths: Collection[Path], suffixes: Collection[str], force: boo
             raise OutputError(path, "exists; --force replaces it")
 
 
+def check_not_inputs(outputs: Collection[Path], inputs: Collection[Path]) -> None:
+    """Refuse to replace an input by what was made from it, whatever --force says."""
+    read = {path.resolve() for path in inputs}
+    for path in outputs:
+        if str(path) != "-" and path.resolve() in read:
+            raise OutputError(path, "is an input of this very command; another name is needed")
+
+
 @contextlib.contextmanager
 def atomic(path: Path, force: bool) -> Iterator[Path]:
     """A name beside ``path`` to write to; on success it becomes ``path``, on any failure it is removed."""
@@ -68,6 +81,7 @@ def atomic(path: Path, force: bool) -> Iterator[Path]:
         raise OutputError(path, "exists; --force replaces it")
     beside = path.with_name(f".{path.stem}.part-{os.getpid()}{path.suffix}")
     try:
+        beside.touch()  # a place that cannot be written shows here, before any writer's own words
         yield beside
         os.replace(beside, path)
     except OSError as error:

@@ -53,18 +53,18 @@ def compare(
     from glidercli.compare import SUFFIXES, matching, write
     from glidercli.compare import compare as compared
     from glidercli.compare.output import metadata_path
-    from glidercli.errors import InputError
-    from glidercli.files import check_outputs
+    from glidercli.errors import InputError, UsageError
+    from glidercli.files import check_not_inputs, check_outputs
     from glidercli.provenance import provenance
 
     if not max_gap > 0.0:
-        raise typer.BadParameter(f"{max_gap} s; allowed: a positive time", param_hint="--max-gap")
+        raise InputError("--max-gap", f"{max_gap} s is not allowed; a positive time is needed")
     if not math.isfinite(offset):
-        raise typer.BadParameter(f"{offset} s; allowed: a finite number", param_hint="--offset")
+        raise InputError("--offset", f"{offset} s is not allowed; a finite number is needed")
     try:
         matching(channels or [])
     except InputError as error:
-        raise typer.BadParameter(str(error), param_hint="--channels") from error
+        raise UsageError(f"--channels: {error}") from error
     files = [path for path in output or [] if path != Path("-")]
     check_outputs(files, SUFFIXES, force)
     check_outputs([metadata_path(path) for path in files if path.suffix.lower() == ".csv"], (".json",), force)
@@ -91,8 +91,12 @@ def compare(
         channels=channels,
         names=[measured, *simulated],
     )
+    recorded = [run.side.name for run in comparison.runs if run.side.origin == "measured"]
+    warn([f"{name} is measured, and stands here as a simulation" for name in recorded], quiet)
+    check_not_inputs(files, inputs)
+    record = provenance(inputs=dict.fromkeys(inputs), origin=comparison.origin)
+    write(comparison, *files, provenance=record, force=force)
     for path in files:
-        write(comparison, path, provenance(inputs=dict.fromkeys(inputs), origin=comparison.origin), force)
         say(f"wrote {path}", quiet)
     print(json_text(comparison.document()) if json or Path("-") in (output or []) else comparison.text())
 
@@ -118,5 +122,9 @@ def _log(text: str, inputs: list[Path], quiet: bool) -> Log:
 
     reading = read([text])
     inputs += [Path(file.path) for file in reading.files]
-    warn([f"{file.path}: {message}" for file in reading.files for message in file.warnings], quiet)
+    for file in reading.files:
+        lost = ", ".join(f"{count} {reason}" for reason, count in file.dropped)
+        counted = [f"{file.records - file.kept} of {file.records} records dropped: {lost}"] if lost else []
+        broken = [file.error] if file.error else []
+        warn([f"{file.path}: {message}" for message in (*broken, *counted, *file.warnings)], quiet)
     return reading.log

@@ -32,14 +32,13 @@ def replay(
 
     outputs = output or []
     check_log_outputs(outputs, force, json)
-    stdout = Path("-") in outputs
     files = [path for path in outputs if path != Path("-")]
     played = play(log, files, format=format, start=start, end=end, strict=strict, force=force)
     warn((f"{report.path}: {report.error}" for report in played.broken), quiet)
-    if stdout:
-        write_log(played.log, [Path("-")], force, quiet)
     for path in files:
         say(f"wrote {path}", quiet)
+    if stdout := Path("-") in outputs:
+        write_log(played.log, [Path("-")], [], force, quiet)
     if json:
         print(json_text(played.document()))
     elif not stdout:

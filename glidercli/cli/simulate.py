@@ -64,7 +64,7 @@ def simulate(
     origin = "simulated, from a reconstruction" if "reconstruction" in flown.log.metadata else "simulated"
     log = flown.log.with_metadata(provenance=provenance_json(inputs=flown.inputs, origin=origin))
     warn(flown.warnings, quiet)
-    write_log(log, outputs, force, quiet)
+    write_log(log, outputs, flown.inputs, force, quiet)
     if json:
         print(json_text(flown.document()))
     elif Path("-") not in outputs:
@@ -80,6 +80,8 @@ def _summary(d: dict[str, Any]) -> str:
         f"{'maximum depth':<17}{d['max_depth_m']:.2f} m",
         f"{'distance':<17}{d['distance_m']:.1f} m over ground",
         f"{'energy':<17}{d['energy_j']:.1f} J lost to the water",
+        f"{'net buoyancy':<17}{d['final']['net_buoyancy_kg']:.3f} kg pumped, {d['net_buoyancy_in_water_kg']:.3f} kg in "
+        "the water at the end",
     ]
     lines += [f"{e['name']:<17}{e['time_s']:.1f} s, {e['depth_m']:.2f} m" for e in d["events"]]
     final = d["final"]

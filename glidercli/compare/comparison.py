@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import fnmatch
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -55,6 +55,7 @@ class Run:
 
     log : the simulated log on the measured clock.
     channels, by_phase : statistics of each channel, over the whole flight and by phase of the measured log.
+    notes : what a reader of the errors must know, one line each.
     """
 
     side: Side
@@ -65,6 +66,7 @@ class Run:
     by_phase: Mapping[str, Mapping[str, Errors]] = dataclasses.field(default_factory=dict)
     events: tuple[EventPair, ...] = ()
     facts: tuple[FactVerdict, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 @dataclasses.dataclass(frozen=True)
@@ -190,7 +192,19 @@ def _run(
         {channel: statistics(error) for channel, error in errors.items()},
         {leg: {c: s for c, s in found.items() if s.n or s.outside or s.gap} for leg, found in parts.items()},
         paired(events_of(measured, intervals), events_of(log, phases(log))),
+        notes=tuple(_other_zeros(measured, simulated, errors)),
     )
+
+
+def _other_zeros(measured: Log, simulated: Log, channels: Iterable[str]) -> Iterator[str]:
+    """Channels that the two logs count from different zeros: their offset is in every error."""
+    for channel in channels:
+        zeros = [log.metadata.get(f"{channel}_zero", "") for log in (measured, simulated)]
+        if zeros[0] != zeros[1]:
+            told = "; ".join(
+                f"{side}: {zero}" for side, zero in zip(("measured", "simulated"), zeros, strict=True) if zero
+            )
+            yield f"{channel.replace('_', ' ')} is counted from different zeros ({told}): its errors hold that offset"
 
 
 def _part(error: Residuals, intervals: tuple[Interval, ...], leg: str) -> Errors:

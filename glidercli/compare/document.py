@@ -4,10 +4,11 @@
     channels  {name: {unit, n, rmse, mae, bias, std, max, max_time_utc, correlation, nrmse, skipped, origins}}
     phases    {dive: {name: the same}, climb: {name: the same}}, by the measured log's phases
     events    [{name, measured, simulated, time_difference_s, depth_difference_m}]; side: {time_utc, depth_m} or null
-    facts     [{name, published, simulated, tolerance, verdict, place, unit, difference, ...}]
+    facts     [{name, published, simulated, tolerance, verdict, place, unit, difference, given, ...}]
+    notes     what a reader of the errors must know, such as channels counted from different zeros
     origins   {measured: {name, origin, reconstruction}, simulated: [the same]}: measured, simulated or reconstruction
 
-With several simulated logs ``simulations`` lists the first five keys for each, with its name; the keys above are then
+With several simulated logs ``simulations`` lists the first six keys for each, with its name; the keys above are then
 those of the first, so that a reader of one simulation's form reads it unchanged.
 """
 
@@ -74,6 +75,7 @@ def _part(run: Run, measured: Log | None) -> dict[str, Any]:
         },
         "events": [_event(pair) for pair in run.events],
         "facts": [_fact(verdict) for verdict in run.facts],
+        "notes": list(run.notes),
     }
 
 
@@ -130,6 +132,7 @@ def _fact(verdict: FactVerdict) -> dict[str, Any]:
         "channel": fact.channel,
         "phase": fact.phase,
         "tolerance_reason": fact.tolerance_reason,
+        "given": fact.given,
         "note": fact.note,
         "reason": verdict.reason,
     }

@@ -14,7 +14,8 @@
     tolerance = 5.0                       # required, 0 or more, same unit: agreement is |difference| <= tolerance
     place = "section 5, p. 11"            # required: where in the source
     tolerance_reason = "printed as about" # optional
-    note = "..."                          # optional; for example: also a control input, not an independent check
+    given = true                          # optional: the simulation was given this value, so agreeing shows nothing
+    note = "..."                          # optional
 
     quantity                                   unit
     max_depth                                  m
@@ -75,6 +76,7 @@ class Fact:
     phase: str = FLIGHT
     channel: str | None = None
     tolerance_reason: str = ""
+    given: bool = False
     note: str = ""
 
 
@@ -146,7 +148,9 @@ def _texts(where: str, table: Mapping[str, Any], keys: Mapping[str, bool], other
 
 def _faults(where: str, entry: Mapping[str, Any]) -> list[str]:
     """Faults of one [[fact]]."""
-    faults = _texts(where, entry, _TEXTS, _NUMBERS)
+    faults = _texts(where, entry, _TEXTS, (*_NUMBERS, "given"))
+    if not isinstance(entry.get("given", False), bool):
+        faults.append(f"{where}.given = {entry['given']!r}; allowed: true, false")
     for key in _NUMBERS:
         value = entry.get(key)
         if key not in entry:

@@ -7,6 +7,7 @@ Files are the same bytes for the same comparison: no dates, no random identifier
 from __future__ import annotations
 
 import contextlib
+import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -41,6 +42,9 @@ WIDTH = 7.2
 MEASURED = "#000000"
 SIMULATED = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 STYLES: tuple[Any, ...] = ("-", (0, (4, 1.5)), "-.", ":")
+
+_FOOT = 120
+"""Characters of a line at the foot."""
 
 _STYLE: dict[str, Any] = {
     "font.family": "DejaVu Sans", "font.size": 7.5, "axes.titlesize": 8, "axes.labelsize": 7.5, "legend.fontsize": 7.5,
@@ -93,7 +97,8 @@ def _drawn(comparison: Comparison) -> Figure:
     rows = -(-len(names) // columns)
     head = 0.3 + 0.16 * (len(comparison.runs) + 1)
     panel = 2.45 if measured is not None else 1.9
-    foot = 0.45 if measured is not None else 0.6
+    remarks = _remarks(comparison, left_out)
+    foot = 0.45 + 0.13 * (len(remarks) + (measured is None))  # facts may add a line on those not drawn
     height = head + rows * panel + foot
     drawing = Figure(figsize=(WIDTH, height))
     grid = drawing.add_gridspec(
@@ -123,7 +128,7 @@ def _drawn(comparison: Comparison) -> Figure:
             axes.set_xlim(_span(comparison, measured, names, zero, scale))
     for axes in lowest[-columns:]:
         axes.set_xlabel(f"time, {unit}, from {since}")
-    notes = [f"{left_out} more channels are not shown."] if left_out else []
+    notes: list[str] = []
     if isinstance(comparison.against, Facts):
         notes += draw_facts(main, comparison.runs, zero, scale)
         ends = [axes.get_xlim() for axes in main.values()]  # a published time may lie beyond the simulated ones
@@ -131,8 +136,17 @@ def _drawn(comparison: Comparison) -> Figure:
             axes.set_xlim(min(left for left, _ in ends), max(right for _, right in ends))
     for column in range(columns):
         drawing.align_ylabels([*list(main.values())[column::columns], *lowest[column::columns]])
-    _heading(drawing, comparison, height, notes)
+    _heading(drawing, comparison, height, [*remarks, *notes])
     return drawing
+
+
+def _remarks(comparison: Comparison, left_out: int) -> list[str]:
+    """Lines at the foot: what is reconstructed, what to know of the errors, how many channels are not shown."""
+    sides = [comparison.measured, *(run.side for run in comparison.runs)]
+    said = [f"Reconstruction: {side.reconstruction}" for side in sides if side.reconstruction]
+    said += [f"{note}." for run in comparison.runs for note in run.notes]
+    said += [f"{left_out} more channels are not shown."] if left_out else []
+    return [line for text in dict.fromkeys(said) for line in textwrap.wrap(text, _FOOT)]
 
 
 def _panels(comparison: Comparison) -> list[str]:
@@ -265,14 +279,13 @@ def _heading(drawing: Figure, comparison: Comparison, height: float, notes: list
         handles=entries, loc="upper left", bbox_to_anchor=(0.09, 1.0 - 0.04 / height), frameon=False, ncols=1,
         borderaxespad=0.0, handlelength=2.2, labelspacing=0.35,
     )  # fmt: skip
-    for number, line in enumerate(notes):
-        drawing.text(0.1, (0.05 + 0.13 * number) / height, _shortened(line), fontsize=6.5, va="bottom")
+    for number, line in enumerate(reversed(notes)):
+        drawing.text(0.1, (0.05 + 0.13 * number) / height, _shortened(line, _FOOT), fontsize=6.5, va="bottom")
 
 
 def _label(side: Side) -> str:
-    """Origin first, since it matters more than the name."""
-    said = f" ({side.kind.removeprefix(side.origin).lstrip(',: ')})" if side.reconstruction else ""
-    return _shortened(f"{side.origin}: {side.name}{said}")
+    """Origin first, since it matters more than the name; what was reconstructed stands at the foot."""
+    return _shortened(f"{side.kind.partition(':')[0]}: {side.name}")
 
 
 def _shortened(line: str, most: int = 95) -> str:

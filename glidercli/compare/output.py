@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import json
 from pathlib import Path
@@ -23,7 +24,7 @@ SUFFIXES = (".csv", ".json", ".png", ".svg", ".pdf")
 _ERRORS = ("unit", "n", "rmse", "mae", "bias", "std", "max", "max_time_utc", "correlation", "nrmse")
 _FACTS = (
     "name", "quantity", "channel", "phase", "unit", "published", "tolerance", "simulated", "difference", "verdict",
-    "place", "tolerance_reason", "note", "reason",
+    "place", "tolerance_reason", "given", "note", "reason",
 )  # fmt: skip
 
 
@@ -32,30 +33,33 @@ def metadata_path(table: Path) -> Path:
     return table.with_name(table.name + "-metadata.json")
 
 
-def write(comparison: Comparison, path: Path, provenance: dict[str, Any], force: bool = False) -> None:
-    """Write a comparison to a file whose ending picks the kind; see SUFFIXES.
+def write(comparison: Comparison, *paths: Path, provenance: dict[str, Any], force: bool = False) -> None:
+    """Write a comparison to files whose endings pick the kind, see SUFFIXES; all of them appear, or none.
 
     provenance : record of versions, command and inputs, kept with the output.
     force : replace files that exist.
 
-    Raises OutputError when the file exists and force is not given, cannot be written, or has another ending.
+    Raises OutputError when a file exists and force is not given, cannot be written, or has another ending.
     """
-    kind = path.suffix.lower()
     record = {**provenance, "origins": document(comparison)["origins"]}
-    if kind == ".csv":
-        with atomic(metadata_path(path), force) as beside, atomic(path, force) as table:
-            beside.write_text(_json(record), encoding="utf-8")
-            _write_csv(comparison, table)
-    elif kind == ".json":
-        with atomic(path, force) as whole:
-            whole.write_text(_json({**document(comparison), "provenance": provenance}), encoding="utf-8")
-    elif kind in SUFFIXES:
-        from glidercli.compare.figure import save
+    if notes := list(dict.fromkeys(note for run in comparison.runs for note in run.notes)):
+        record["notes"] = notes
+    with contextlib.ExitStack() as pending:
+        for path in paths:
+            kind = path.suffix.lower()
+            if kind not in SUFFIXES:
+                raise OutputError(path, f"unknown output {kind or 'without ending'}; allowed: {' '.join(SUFFIXES)}")
+            part = pending.enter_context(atomic(path, force))
+            if kind == ".csv":
+                beside = pending.enter_context(atomic(metadata_path(path), force))
+                beside.write_text(_json(record), encoding="utf-8")
+                _write_csv(comparison, part)
+            elif kind == ".json":
+                part.write_text(_json({**document(comparison), "provenance": provenance}), encoding="utf-8")
+            else:
+                from glidercli.compare.figure import save
 
-        with atomic(path, force) as picture:
-            save(comparison, picture, json.dumps(record, sort_keys=True))
-    else:
-        raise OutputError(path, f"unknown output {kind or 'without ending'}; allowed: {' '.join(SUFFIXES)}")
+                save(comparison, part, json.dumps(record, sort_keys=True))
 
 
 def _json(value: Any) -> str:

@@ -34,7 +34,7 @@ def _run(comparison: Comparison, run: Run) -> list[str]:
     for title, rows in (("flight", run.channels), *run.by_phase.items()):
         if rows:
             lines += ["", f"{title}:", *_table(_ERRORS, [_row(name, errors) for name, errors in rows.items()], 2)]
-    return lines
+    return [*lines, "", *(f"Note: {note}." for note in run.notes)] if run.notes else lines
 
 
 def _row(name: str, errors: Errors) -> list[str]:
@@ -44,7 +44,9 @@ def _row(name: str, errors: Errors) -> list[str]:
 
 def _facts(comparison: Comparison, facts: Facts, run: Run) -> list[str]:
     agree, disagree = (sum(one.verdict == word for one in run.facts) for word in ("agrees", "disagrees"))
-    counted = f"{agree} agree, {disagree} disagree, {len(run.facts) - agree - disagree} not simulated"
+    given = sum(one.verdict == "agrees" and one.fact.given for one in run.facts)
+    which = f" ({given} of them given to the simulation)" if given else ""
+    counted = f"{agree} agree{which}, {disagree} disagree, {len(run.facts) - agree - disagree} not simulated"
     lines = [
         f"Compared {run.side} with published values: {facts.title + ', ' if facts.title else ''}{facts.source}.",
         f"Of {len(run.facts)} facts: {counted}.",

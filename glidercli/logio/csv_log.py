@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Collection, Mapping
 from pathlib import Path
-from typing import Any, TextIO, get_args
+from typing import Any, TextIO, cast, get_args
 
 import numpy as np
 
@@ -13,11 +14,13 @@ from glidercli.channels import PHASES, by_column
 from glidercli.errors import InputError
 from glidercli.log import Channel, Event, Log, Origin
 from glidercli.logio.report import FileReport
+from glidercli.provenance import file_hash
 
 __all__ = ["is_csv", "metadata_path", "read_csv", "write_csv", "write_csv_stream", "write_metadata"]
 
 _EPOCH = "2000-01-01T00:00:00"
 """Start of a table that has elapsed_s alone; the same arbitrary date as for a flight without one."""
+_BOTH = "measured and derived"
 _YEARS = ("1700-01-01", "2200-01-01")
 """Times allowed: nanoseconds in 64 bits hold little more."""
 
@@ -30,14 +33,20 @@ def metadata_path(path: Path) -> Path:
 def write_csv_stream(log: Log, stream: TextIO) -> None:
     """The log as CSV: first line the column names, empty where a channel has no sample; numbers to the last digit.
 
-    The last column says of every row what the log is, so that a table parted from its metadata is not taken for more:
-    measured, simulated, or reconstruction for all that was made from one.
+    The last column says of every row what the log is, so that a table parted from its metadata is not taken for more.
     """
     table = log.table()
     table["time_utc"] = np.datetime_as_string(table["time_utc"].to_numpy(), unit="ns")
     table["time_utc"] += "Z"
-    table["origin"] = "reconstruction" if "reconstruction" in log.metadata else log.origin
+    table["origin"] = _origin_word(log.origin, log.metadata, {c.origin for c in log.channels.values() if len(c)})
     table.to_csv(stream, index=False, lineterminator="\n")
+
+
+def _origin_word(origin: str, metadata: Mapping[str, Any], of_channels: Collection[str]) -> str:
+    """What a row of the table is: measured, simulated, or reconstruction for all that was made from one."""
+    if "reconstruction" in metadata:
+        return "reconstruction"
+    return _BOTH if origin == "measured" and "derived" in of_channels else origin
 
 
 def write_csv(log: Log, path: Path) -> None:
@@ -46,8 +55,8 @@ def write_csv(log: Log, path: Path) -> None:
         write_csv_stream(log, stream)
 
 
-def write_metadata(log: Log, path: Path) -> None:
-    """What the table cannot hold: origin, metadata with provenance, the channels' origins, events."""
+def write_metadata(log: Log, path: Path, table: Path) -> None:
+    """What the table cannot hold: origin, metadata with provenance, the channels' origins, events; its hash."""
     told: dict[str, Any] = dict(log.metadata)
     if "provenance" in told:
         told["provenance"] = json.loads(told["provenance"])
@@ -56,6 +65,7 @@ def write_metadata(log: Log, path: Path) -> None:
         "metadata": told,
         "channels": {name: channel.origin for name, channel in log.channels.items()},
         "events": [{"name": e.name, "time_ns": e.time_ns, "depth_m": e.depth} for e in log.events],
+        "table_sha256": file_hash(table),
     }
     path.write_text(json.dumps(document, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
 
@@ -74,10 +84,10 @@ def is_csv(path: Path) -> bool:
 def read_csv(path: Path) -> tuple[Log, FileReport]:
     """A log from a CSV table with time_utc (or elapsed_s) and columns in the contract's names.
 
-    Where its values come from is told by the metadata beside it, else by a column named origin; else they are taken as
-    measured, and the log's metadata say so. A row with another number of fields than the first line, such as a last
-    one cut short, is dropped and counted. Raises InputError where a cell is no number, a phase is unknown, or a time
-    cannot be read or does not increase, naming the line.
+    Where its values come from is told by the metadata beside it and by a column named origin, which must not
+    contradict each other; without both they are taken as measured, and the log's metadata say so. A row with another
+    number of fields than the first line, such as a last one cut short, is dropped and counted. Raises InputError where
+    a cell is no number, a phase is unknown, or a time cannot be read or does not increase, naming the line.
     """
     import pandas as pd
 
@@ -99,10 +109,19 @@ def read_csv(path: Path) -> tuple[Log, FileReport]:
     if "origin" not in metadata and "origin" not in text:
         told["origin_note"] = "taken as measured: the table does not say where its values come from"
         warnings.append(told["origin_note"])
-    origin = metadata.get("origin") or _origin(path, text, warnings)
+    word = _origin_of_rows(path, text, warnings)
+    if metadata:
+        expected = _origin_word(metadata["origin"], metadata["metadata"], set(metadata["channels"].values()))
+        if word not in (None, expected):
+            raise InputError(path, f"its rows say {word}, {beside.name} says {expected}; one belongs to another table")
+        if metadata.get("table_sha256") not in (None, file_hash(path)):
+            warnings.append(f"has changed since {beside.name} was written; what that says of origins is kept")
+    elif word == _BOTH:
+        warnings.append(f"{beside.name} is missing: which channels are derived is not known, all are taken as derived")
+    origin: Origin = metadata.get("origin") or ("measured" if word in (None, _BOTH) else cast(Origin, word))
     log = Log.from_table(table, origin, told)
-    origins = metadata.get("channels", {})
-    channels = [Channel(c.name, c.time_ns, c.values, origins.get(c.name, origin)) for c in log.channels.values()]
+    origins, other = metadata.get("channels", {}), "derived" if word == _BOTH else origin
+    channels = [Channel(c.name, c.time_ns, c.values, origins.get(c.name, other)) for c in log.channels.values()]
     events = tuple(Event(e["name"], int(e["time_ns"]), e["depth_m"]) for e in metadata.get("events", []))
     log = Log({channel.name: channel for channel in channels if len(channel)}, origin, log.metadata, events)
     kept = int(table.drop(columns="time_utc").notna().any(axis=1).sum())
@@ -149,12 +168,12 @@ def _metadata(path: Path) -> dict[str, Any]:
     return dict(found)
 
 
-def _origin(path: Path, text: Any, warnings: list[str]) -> Origin:
-    """Where the values come from, by the column named origin: the least that a row says."""
-    if "origin" not in text:
-        return "measured"
+def _origin_of_rows(path: Path, text: Any, warnings: list[str]) -> str | None:
+    """The least that a row says in the column named origin; None without it."""
+    if "origin" not in text or not len(text):
+        return None
     words = text["origin"].str.strip()
-    known: tuple[Origin, ...] = ("reconstruction", "simulated", "derived", "measured")  # the least first
+    known = ("reconstruction", "simulated", "derived", _BOTH, "measured")  # the least first
     bad = np.flatnonzero(~words.isin(known))
     if len(bad):
         row = int(bad[0])
@@ -162,7 +181,7 @@ def _origin(path: Path, text: Any, warnings: list[str]) -> Origin:
     found = [word for word in known if (words == word).any()]
     if len(found) > 1:
         warnings.append(f"origins {', '.join(found)} in one table: all of it is taken as {found[0]}")
-    return found[0] if found else "measured"
+    return found[0]
 
 
 def _times(path: Path, text: Any) -> Any:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from glidercli.frames import quaternion_from_euler_arrays
 from glidercli.log import Log
+from glidercli.logio.drawable import hull_size, number, together
 from glidercli.logio.mcap_messages import (
     MARKED_TIME,
     Array,
@@ -35,7 +36,6 @@ from glidercli.logio.mcap_messages import (
 __all__ = ["remarks", "scene_topics"]
 
 MAP, NED, HULL = "map", "map_ned", "base_link_fsd"
-HULL_LENGTH, HULL_DIAMETER = 2.0, 0.22  # m, a usual glider, where the log names no hull
 MOST_POINTS = 20_000
 """Points of a drawn track; longer ones are thinned evenly. The samples themselves are in /glider/navigation."""
 ARROW_SCALE = 100.0
@@ -61,14 +61,8 @@ def scene_topics(log: Log, start_ns: int) -> list[Table | Messages]:
 
 
 def _sampled(log: Log, *names: str) -> _Samples | None:
-    """The times at which all these channels have a sample, and the values there; None where there is no such time."""
-    if not all(name in log for name in names):
-        return None
-    times = log[names[0]].time_ns
-    for name in names[1:]:
-        if not np.array_equal(times, log[name].time_ns):
-            times = np.intersect1d(times, log[name].time_ns, assume_unique=True)
-    values = [log[name].values[np.searchsorted(log[name].time_ns, times)] for name in names]
+    """The samples that these channels have together; None where there are none."""
+    times, values = together(log, *names)
     return (times, values) if times.size else None
 
 
@@ -191,12 +185,12 @@ def _map_track(log: Log, start_ns: int) -> list[Messages]:
     from foxglove_schemas_protobuf.GeoJSON_pb2 import GeoJSON
 
     way, fixes = _sampled(log, "north", "east"), _sampled(log, "latitude", "longitude")
-    origin = _numbers(log, "origin_latitude_deg", "origin_longitude_deg")
-    if way is not None and origin is not None:
+    latitude_0, longitude_0 = number(log, "origin_latitude_deg"), number(log, "origin_longitude_deg")
+    if way is not None and latitude_0 is not None and longitude_0 is not None:
         import pymap3d
 
         north, east = (column[_thinned(len(column))] for column in way[1])
-        latitude, longitude, _ = pymap3d.enu2geodetic(east, north, 0.0, *origin, 0.0)
+        latitude, longitude, _ = pymap3d.enu2geodetic(east, north, 0.0, latitude_0, longitude_0, 0.0)
     elif fixes is not None:
         latitude, longitude = (column[_thinned(len(column))] for column in fixes[1])
     else:
@@ -211,26 +205,12 @@ def _map_track(log: Log, start_ns: int) -> list[Messages]:
     return [_single("/map/track", start_ns, GeoJSON(geojson=text))]
 
 
-def _numbers(log: Log, *keys: str) -> list[float] | None:
-    """Finite numbers from the metadata; None where one is missing or is none."""
-    try:
-        numbers = [float(log.metadata[key]) for key in keys]
-    except (KeyError, ValueError):
-        return None
-    return numbers if all(map(math.isfinite, numbers)) else None
-
-
-def _hull(log: Log) -> tuple[float, float, bool]:
-    """Length and diameter of the hull, m, and whether they are those of the vehicle."""
-    size = _numbers(log, "hull_length_m", "hull_diameter_m")
-    return (size[0], size[1], True) if size and min(size) > 0.0 else (HULL_LENGTH, HULL_DIAMETER, False)
-
-
 def remarks(log: Log) -> list[str]:
     """What a viewer of the scene must know: a hull or an attitude that is not from the log."""
     if _motion(_place(log), _attitude(log)) is None:
         return []
-    said = [] if _hull(log)[2] else [f"the hull is drawn {HULL_LENGTH} m x {HULL_DIAMETER} m: not to scale"]
+    length, diameter, to_scale = hull_size(log)
+    said = [] if to_scale else [f"the hull is drawn {length} m x {diameter} m: not to scale"]
     return said if _attitude(log) else [*said, "no attitude in this log: the hull is drawn level, heading north"]
 
 
@@ -249,7 +229,7 @@ def _scene(time_ns: int | dict[str, int], frame: str, name: str, notes: dict[str
 
 def _vehicle(log: Log, time_ns: int) -> Any:
     """A hull along x with a red nose and wings; the wings only show which way it lies."""
-    length, diameter, to_scale = _hull(log)
+    length, diameter, to_scale = hull_size(log)
     hull = {
         "pose": _pose(0.0, 0.0, 0.0, (0.0, _ROOT, 0.0, _ROOT)), "size": _of("xyz", diameter, diameter, length),
         "bottom_scale": 1.0, "top_scale": 1.0, "color": _of("rgba", 1.0, 0.8, 0.0, 1.0),

@@ -11,7 +11,7 @@ import numpy as np
 
 from glidercli.channels import CHANNELS
 from glidercli.errors import InputError, UsageError
-from glidercli.files import check_outputs
+from glidercli.files import check_not_inputs, check_outputs
 from glidercli.log import Channel, Log
 from glidercli.logio.csv_log import metadata_path
 from glidercli.logio.reading import read
@@ -101,10 +101,10 @@ def replay(
                 "--start, --end",
                 f"no sample lies there; the log runs {iso(reading.log.start_ns)} to {iso(reading.log.end_ns)}",
             )
+    check_not_inputs(targets, [report.path for report in reading.files])
     inputs = [report.path for report in reading.files if report.kept]
     log = log.with_metadata(provenance=provenance_json(inputs=inputs, origin=log.origin))
-    for path in targets:
-        write(log, path, force=force)
+    write(log, *targets, force=force)
     return Replay(log, reading.files, tuple(targets))
 
 

@@ -18,11 +18,12 @@ from numpy.typing import NDArray
 
 from glidercli.channels import CHANNELS
 from glidercli.log import Log
+from glidercli.logio.drawable import hull_size
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
-__all__ = ["COLOURS", "PHASE_COLOURS", "Settled", "hull_size", "identified", "number", "row", "series_name", "settle"]
+__all__ = ["COLOURS", "PHASE_COLOURS", "Settled", "identified", "row", "series_name", "settle"]
 
 Array = NDArray[np.float64]
 Colour = tuple[int, int, int]
@@ -66,23 +67,6 @@ def series_name(channel: str) -> str:
     """Name of a channel's line in a plot, with the unit that it is drawn in."""
     unit = "m (negative down)" if channel == "depth" else CHANNELS[channel].column_unit
     return f"{channel.replace('_', ' ')}, {'practical, no unit' if unit == '1' else unit}"
-
-
-def hull_size(log: Log) -> tuple[float, float, bool]:
-    """Length and diameter of the hull, m, and whether they are the vehicle's own (metadata) or only a stand-in."""
-    length, diameter = number(log, "hull_length_m"), number(log, "hull_diameter_m")
-    if length is None or diameter is None or not length > diameter > 0:
-        return 2.0, 0.22, False
-    return length, diameter, True
-
-
-def number(log: Log, key: str) -> float | None:
-    """A number told by the log's metadata, or None where it is missing, not finite or no number."""
-    try:
-        value = float(log.metadata[key])
-    except (KeyError, ValueError):
-        return None
-    return value if np.isfinite(value) else None
 
 
 def _blueprint(log: Log, camera: tuple[Array, Array] | None, has_hull: bool, has_plan: bool) -> Any:

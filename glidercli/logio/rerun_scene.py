@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from glidercli.frames import quaternion_from_euler_arrays
 from glidercli.log import Log
 from glidercli.logio import rerun_blueprint as look
+from glidercli.logio.drawable import hull_size, number, together
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
@@ -33,16 +34,6 @@ def columns(entity: str, start_ns: int, time_ns: Times, values: Any) -> Chunk:
     return Chunk.from_columns(entity, [utc, elapsed], values)
 
 
-def _together(log: Log, *names: str) -> tuple[Times, list[Array]]:
-    """The times at which all these channels have a sample, and their values there; nothing if one is missing."""
-    if not all(name in log for name in names):
-        return np.array([], np.int64), [np.array([])] * len(names)
-    times = log[names[0]].time_ns
-    for name in names[1:]:
-        times = np.intersect1d(times, log[name].time_ns)
-    return times, [log[name].values[np.searchsorted(log[name].time_ns, times)] for name in names]
-
-
 class Scene:
     """Everything under /world (NED, m) and /plan (the same from above), as chunks.
 
@@ -54,9 +45,9 @@ class Scene:
     def __init__(self, log: Log) -> None:
         self.log = log
         self.chunks: list[Chunk] = []
-        self.times, track = _together(log, "north", "east", "down" if "down" in log else "depth")
+        self.times, track = together(log, "north", "east", "down" if "down" in log else "depth")
         self.track = np.stack(track, axis=-1)
-        self.attitude_times, self.attitude = _together(log, "roll", "pitch", "heading")
+        self.attitude_times, self.attitude = together(log, "roll", "pitch", "heading")
         self.fixes = self._fixes()
         self.has_hull, self.has_plan = len(self.attitude_times) > 0, len(self.times) > 1 or len(self.fixes) > 0
         self.bounds: Array | None = None
@@ -108,8 +99,8 @@ class Scene:
 
     def _fixes(self) -> Array:
         """Recorded positions at the surface in NED about the log's origin, m; none where they cannot be placed."""
-        _, (latitude, longitude) = _together(self.log, "latitude", "longitude")
-        told = [look.number(self.log, f"origin_{name}_deg") for name in ("latitude", "longitude")]
+        _, (latitude, longitude) = together(self.log, "latitude", "longitude")
+        told = [number(self.log, f"origin_{name}_deg") for name in ("latitude", "longitude")]
         unplaced = None in told and len(self.times)
         if unplaced or not len(latitude) or self.log["latitude"].origin != "measured":
             return np.empty((0, 3))
@@ -174,7 +165,7 @@ class Scene:
         """One arrow in each of the depth bins, at the track's nearest point in time."""
         import rerun as rr
 
-        times, (north, east) = _together(self.log, "current_north", "current_east")
+        times, (north, east) = together(self.log, "current_north", "current_east")
         if not len(times):
             return []
         up = self.log.channels.get("current_up")
@@ -193,7 +184,7 @@ class Scene:
         """Hull, wings, tail and movable mass in the body frame, and a compass that stays level."""
         import rerun as rr
 
-        length, diameter, own = look.hull_size(self.log)
+        length, diameter, own = hull_size(self.log)
         half, body = diameter / 2, "/world/vehicle/body"
         turn = quaternion_from_euler_arrays(*self.attitude)[:, [1, 2, 3, 0]]
         self._over_time(body, self.attitude_times, rr.Transform3D.columns(quaternion=turn))
@@ -228,14 +219,14 @@ class Scene:
         import rerun as rr
 
         slide, turn = self.log.channels.get("mass_position"), self.log.channels.get("mass_rotation")
-        true, drawn = look.number(self.log, "movable_eccentricity_m"), 0.32 * diameter
+        true, drawn = number(self.log, "movable_eccentricity_m"), 0.32 * diameter
         told = (
             f"exaggerated: {drawn:.3f} m for a true {true:g} m" if true is not None else "not to scale: it is unknown"
         )
         notes = [f"Red: the movable mass. Its distance from the hull's axis is drawn {told}."]
         if slide is not None:
             zero = 0.0
-            if "mass_position_zero" in self.log.metadata or look.number(self.log, "movable_nominal_position_m") is None:
+            if "mass_position_zero" in self.log.metadata or number(self.log, "movable_nominal_position_m") is None:
                 zero = 0.5 * (slide.values.min() + slide.values.max())
                 notes.append("Where its zero lies in the hull is unknown: it is drawn about the middle of its range.")
             places = np.outer(slide.values - zero, [1, 0, 0])

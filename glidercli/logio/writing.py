@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
 
 from glidercli.errors import OutputError
@@ -16,29 +17,30 @@ SUFFIXES = (".mcap", ".rrd", ".csv")
 """Endings that can be written."""
 
 
-def write(log: Log, path: str | Path, force: bool = False) -> None:
+def write(log: Log, *paths: str | Path, force: bool = False) -> None:
     """Save a log; the ending picks the writer: .mcap (Foxglove, Lichtblick), .rrd (Rerun), .csv.
 
-    force : replace a file that exists; without it that is an OutputError. A log without provenance gets that of this
-    process.
+    All paths appear, or none. A log without provenance gets that of this process.
+
+    force : replace files that exist; without it that is an OutputError.
     """
-    target = Path(path)
     if "provenance" not in log.metadata:
         log = log.with_metadata(provenance=provenance_json(origin=log.origin))
-    match target.suffix.lower():
-        case ".csv":
-            with atomic(target, force) as part, atomic(metadata_path(target), force) as beside:
+    with contextlib.ExitStack() as pending:
+        for target in map(Path, paths):
+            if target.suffix.lower() not in SUFFIXES:
+                raise OutputError(
+                    target, f"unknown output {target.suffix or 'without ending'}; allowed: {' '.join(SUFFIXES)}"
+                )
+            part = pending.enter_context(atomic(target, force))
+            if target.suffix.lower() == ".csv":
                 write_csv(log, part)
-                write_metadata(log, beside)
-        case ".mcap":
-            from glidercli.logio.mcap_writer import write_mcap
+                write_metadata(log, pending.enter_context(atomic(metadata_path(target), force)), part)
+            elif target.suffix.lower() == ".mcap":
+                from glidercli.logio.mcap_writer import write_mcap
 
-            with atomic(target, force) as part:
                 write_mcap(log, part)
-        case ".rrd":
-            from glidercli.logio.rerun_writer import write_rerun
+            else:
+                from glidercli.logio.rerun_writer import write_rerun
 
-            with atomic(target, force) as part:
                 write_rerun(log, part)
-        case other:
-            raise OutputError(target, f"unknown output {other or 'without ending'}; allowed: {' '.join(SUFFIXES)}")

@@ -13,7 +13,7 @@ from glidercli.ocean import seawater
 from glidercli.ocean.cnv import is_cnv, parse_cnv
 from glidercli.ocean.downcast import DEEPEST_DBAR, SALINITY, TEMPERATURE, downcast
 from glidercli.ocean.seabird import PRESSURE, samples
-from glidercli.ocean.source import listed, read_text
+from glidercli.ocean.source import left_out, listed, read_text
 from glidercli.ocean.table import Table, parse_table
 
 __all__ = ["Cast", "read_ctd"]
@@ -29,6 +29,8 @@ _SALT = ("salinity", "absolute_salinity_g_kg", "conductivity_S_m")
 _USED = ("depth_m", "pressure_dbar", "temperature_degC", *_SALT, "density_kg_m3", "latitude_deg", "longitude_deg")
 _CONDUCTIVITY = (0.0, 10.0)  # S/m; the saltiest warm sea has 7
 _DENSITY = (990.0, 1100.0)  # kg/m3 in situ: fresh at 45 degC to brine in the deepest trench
+_KG_PER_KG = (0.025, 0.045)  # ocean salinity in kg/kg, taken for practical
+_OVERTURN = 0.2  # kg/m3; noise and overturns in the sea stay below
 _DENSITY_MISMATCH = 0.1  # kg/m3; equations of state in use differ by less than 0.03
 
 
@@ -45,6 +47,7 @@ class Cast:
     time_utc : start of the cast as the file has it, or None.
     dropped : samples left out, as (reason, count).
     warnings : one line each, without the file's name.
+    reconstructed : whether the file says that it is a reconstruction.
     """
 
     depth: Array
@@ -59,6 +62,7 @@ class Cast:
     source: Path
     dropped: tuple[tuple[str, int], ...]
     warnings: tuple[str, ...]
+    reconstructed: bool = False
 
     @property
     def records(self) -> int:
@@ -139,6 +143,7 @@ def _from_cnv(path: Path, text: str, latitude: float | None) -> Cast:
     pressure, temperature = recorded.pressure_dbar[kept], recorded.temperature[kept]
     salinity = recorded.salinity[kept]
     absolute = _absolute_salinity(salinity, pressure, place)
+    computed = "depth" if file.first(*PRESSURE) else "pressure"
     return Cast(
         depth=seawater.depth_from_pressure(pressure, place.used),
         pressure_dbar=pressure,
@@ -151,7 +156,7 @@ def _from_cnv(path: Path, text: str, latitude: float | None) -> Cast:
         time_utc=file.time_utc,
         source=path,
         dropped=dropped,
-        warnings=(*warnings, *place.warnings("depth" if file.first(*PRESSURE) else "pressure", True)),
+        warnings=(*warnings, *place.warnings(computed, True), *left_out(dropped, total, "samples")),
     )
 
 
@@ -185,7 +190,8 @@ def _from_table(table: Table, latitude: float | None) -> Cast:
         time_utc=(table.cells["time_utc"][0] or None) if "time_utc" in table else None,
         source=table.path,
         dropped=(),
-        warnings=(*place.warnings(missing, by_place), *warnings),
+        warnings=(*place.warnings(missing, by_place), *warnings, *_doubts(salinity, density)),
+        reconstructed=table.reconstructed,
     )
 
 
@@ -222,6 +228,18 @@ def _density(
         salty = temperature is None and any(name in table for name in _SALT)
         raise _missing(table, "temperature_degC" if salty else f"{', '.join(_SALT)} or density_kg_m3")
     return own, ()
+
+
+def _doubts(salinity: Array | None, density: Array) -> tuple[str, ...]:
+    """What is possible, but more likely a slip of whoever made the table."""
+    lines = []
+    if salinity is not None and _KG_PER_KG[0] < float(np.median(salinity)) < _KG_PER_KG[1]:
+        middle = f"salinity is about {np.median(salinity):g}"
+        lines.append(f"{middle}, nearly fresh; the ocean has about 35, which is 0.035 kg/kg")
+    fall = float((np.maximum.accumulate(density) - density).max())
+    if fall > _OVERTURN:
+        lines.append(f"density falls with depth by up to {fall:.2f} kg/m3: such water would overturn")
+    return tuple(lines)
 
 
 def _column(table: Table, name: str, allowed: tuple[float, float]) -> Array | None:

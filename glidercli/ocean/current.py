@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
-from glidercli.ocean.source import listed, read_text
+from glidercli.ocean.source import left_out, listed, read_text
 from glidercli.ocean.table import parse_table
 
 __all__ = ["CurrentProfile", "read_adcp"]
@@ -30,7 +30,8 @@ class CurrentProfile:
     depth : (n,), m, positive down, strictly increasing.
     east, north, up : (n,), m/s, where the water goes; up is zero where it was not measured.
     dropped : bins left out, as (reason, count).
-    warnings : one line each.
+    warnings : one line each, without the file's name.
+    reconstructed : whether the file says that it is a reconstruction.
     """
 
     depth: Array
@@ -40,6 +41,7 @@ class CurrentProfile:
     source: Path
     dropped: tuple[tuple[str, int], ...]
     warnings: tuple[str, ...]
+    reconstructed: bool = False
 
     @property
     def records(self) -> int:
@@ -83,5 +85,11 @@ def read_adcp(path: str | Path) -> CurrentProfile:
         reasons = ", ".join(f"{count} {reason}" for reason, count in dropped)
         raise InputError(path, f"has no usable bin among {len(table)}: {reasons}; at least one is needed")
     unknown = table.unknown((_EAST, _NORTH, _UP))
-    warnings = (f"columns not known and not used: {listed(unknown)}",) if unknown else ()
-    return CurrentProfile(depth[good], east[good], north[good], up[good], path, dropped, warnings)
+    warnings = left_out(dropped, len(table), "bins")
+    if dropped and good.sum() > 1:
+        widest = float(np.diff(depth[good]).max())
+        warnings += (f"the current is interpolated between the bins kept, over up to {widest:g} m",)
+    if unknown:
+        warnings += (f"columns not known and not used: {listed(unknown)}",)
+    profile = (depth[good], east[good], north[good], up[good])
+    return CurrentProfile(*profile, path, dropped, warnings, table.reconstructed)

@@ -30,7 +30,7 @@ class Ocean:
     has_temperature : whether temperature was measured; else its column holds one reference value.
     moving : whether the current comes from a profile; else the water is still.
     warnings : what a reader of results should know, one line each.
-    inputs : files that it was made from.
+    inputs : files that it was made from. reconstructed : those that say they are reconstructions.
     """
 
     water: Profile
@@ -41,6 +41,7 @@ class Ocean:
     moving: bool
     warnings: tuple[str, ...] = ()
     inputs: tuple[Path, ...] = ()
+    reconstructed: tuple[Path, ...] = ()
 
     @classmethod
     def uniform(
@@ -97,6 +98,7 @@ class Ocean:
             moving=current is not None,
             warnings=tuple(f"{item.source}: {line}" for item in given for line in item.warnings),
             inputs=tuple(item.source for item in given),
+            reconstructed=tuple(item.source for item in given if item.reconstructed),
         )
 
     @property

@@ -9,7 +9,7 @@ from pathlib import Path
 from glidercli.errors import InputError
 from glidercli.files import readable_file
 
-__all__ = ["listed", "read_text"]
+__all__ = ["left_out", "listed", "read_text"]
 
 _GZIP = b"\x1f\x8b"
 _TEXT_CONTROLS = b"\t\n\v\f\r\x1a"  # \x1a ends text files written by DOS programs
@@ -47,3 +47,9 @@ def listed(names: tuple[str, ...], most: int = 30) -> str:
     """Names as text for a message, at most so many."""
     more = f" and {len(names) - most} more" if len(names) > most else ""
     return ", ".join(names[:most]) + more
+
+
+def left_out(dropped: tuple[tuple[str, int], ...], records: int, what: str) -> tuple[str, ...]:
+    """One line that counts what was dropped, by reason; none if nothing was. what : "bins", "samples"."""
+    reasons = ", ".join(f"{count} {reason}" for reason, count in dropped)
+    return (f"{sum(count for _, count in dropped)} of {records} {what} left out: {reasons}",) if dropped else ()

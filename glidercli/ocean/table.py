@@ -46,6 +46,11 @@ class Table:
         """Names of the columns, in the file's order."""
         return tuple(self.cells)
 
+    @property
+    def reconstructed(self) -> bool:
+        """Whether a column named origin says of any row that it is a reconstruction."""
+        return "reconstruction" in self.cells.get("origin", ())
+
     def numbers(self, column: str, low: float, high: float) -> Array:
         """A column, (n,), whose every cell must be a number from low to high; else InputError."""
         values = self.measured(column)

@@ -17,7 +17,7 @@ from glidercli.kernel import compiled, kernel
 from glidercli.model.buoyancy import hull_excess, pumped_excess
 from glidercli.model.equations import through_water
 from glidercli.model.parameters import Parameters
-from glidercli.ocean.water import Sea, at_depth
+from glidercli.ocean.water import Sea, Water, at_depth
 from glidercli.simulation.integrator import (
     REACHED_CEILING,
     REACHED_END,
@@ -47,7 +47,7 @@ COLUMNS = (
 
 @dataclasses.dataclass(frozen=True)
 class FlightEvent:
-    """Something that ended a leg or the flight: time in s, depth in m."""
+    """The apogee, or what ended a leg or the flight: time in s, depth in m."""
 
     name: str
     time: float
@@ -56,12 +56,13 @@ class FlightEvent:
 
 @dataclasses.dataclass(frozen=True)
 class Excursion:
-    """A flow angle beyond the range that the coefficients were fitted to, counted at every step of the integrator.
+    """An angle beyond a limit, counted at every step of the integrator.
 
-    duration : s spent there. first, last : s from the start. largest : rad, magnitude.
+    limit : rad. duration : s spent beyond it. first, last : s from the start. largest : rad, magnitude.
     """
 
     name: str
+    limit: float
     duration: float
     first: float
     last: float
@@ -73,7 +74,8 @@ class Flight:
     """What came of it.
 
     times : (n,) s from the start. samples : (n, len(COLUMNS)). depths : least and greatest, m, between samples too.
-    distance : m, length of the horizontal track over ground. wall : seconds of integration alone.
+    distance : m, length of the horizontal track over ground. excess : kg, net buoyancy in the water at the end.
+    wall : seconds of integration alone.
     """
 
     times: Array
@@ -82,6 +84,7 @@ class Flight:
     excursions: tuple[Excursion, ...]
     depths: tuple[float, float]
     distance: float
+    excess: float
     evaluations: int
     wall: float
 
@@ -123,6 +126,11 @@ def scales_of(p: Parameters) -> Array:
     )
 
 
+def _excess(mb: float, water: Water, p: Parameters) -> float:
+    """Net buoyancy in the water, kg, sinking positive: what is pumped and what the hull displaces."""
+    return pumped_excess(mb, water.density, p) + hull_excess(water.density, water.pressure, water.temperature, p)
+
+
 def fly(
     legs: Sequence[Schedule],
     sea: Sea,
@@ -153,10 +161,7 @@ def fly(
     """
     duration, start_depth, rtol = float(duration), float(start_depth), float(rtol)  # one signature, compiled once
     first = controls_at(legs[0].times, legs[0].values, 0.0, -1 if legs[0].times[0] > 0.0 else 0)
-    water = at_depth(sea, start_depth)
-    excess = pumped_excess(first.mb, water.density, p) + hull_excess(
-        water.density, water.pressure, water.temperature, p
-    )
+    excess = _excess(first.mb, at_depth(sea, start_depth), p)
     if start_depth <= SURFACE and excess <= 0.0:
         raise InputError(
             "net buoyancy",
@@ -170,8 +175,7 @@ def fly(
     y[3:7] = quaternion_from_euler(0.0, 0.0, heading)
     grid = np.arange(1, math.floor(duration / every * (1.0 + 1e-12)) + 1) * every
     t, step, scales = 0.0, FIRST_STEP, scales_of(p)
-    reached = range_of_none(float(fitted_angle))
-    reached.depths[:] = start_depth
+    reached = range_of_none(start_depth, float(fitted_angle))
     common = (rtol, scales, reached)
     nowhere = (grid[:0], np.empty((0, SIZE)), *common)
     run_leg(y, 0.0, 0.0, step, legs[0].times, legs[0].values, sea, p, full, math.inf, SURFACE, *nowhere)  # compiles
@@ -209,14 +213,19 @@ def fly(
         events.append(FlightEvent(name, t, float(y[2])))
         if t >= duration:
             break
-    angles = dict(zip(("angle of attack", "sideslip"), reached.angles.tolist(), strict=True))
+    names = ("angle of attack", "sideslip", "roll")
+    angles = zip(names, reached.limits.tolist(), reached.angles.tolist(), strict=True)
+    (least, _), (greatest, deepest_at) = reached.depths.tolist()
+    if deepest_at > 0.0 and greatest > y[2]:
+        events.append(FlightEvent("apogee", deepest_at, greatest))
     return Flight(
         times=np.array(times),
         samples=np.vstack(samples),
-        events=tuple(events),
-        excursions=tuple(Excursion(name, *row) for name, row in angles.items() if row[0] > 0.0),
-        depths=(float(reached.depths[0]), float(reached.depths[1])),
+        events=tuple(sorted(events, key=lambda event: event.time)),
+        excursions=tuple(Excursion(name, limit, *row) for name, limit, row in angles if row[0] > 0.0),
+        depths=(least, greatest),
         distance=float(y[14]),
+        excess=_excess(samples[-1][-1, COLUMNS.index("net_buoyancy")], at_depth(sea, float(y[2])), p),
         evaluations=evaluations,
         wall=wall,
     )

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.frames import Vector
+from glidercli.frames import Quaternion, Vector, rotation_ned_body
 from glidercli.kernel import kernel
 from glidercli.model.equations import State, rates, through_water
 from glidercli.model.hydrodynamics import flow_angles
@@ -190,34 +190,39 @@ def crossing(y: Array, new: Array, h: float, k: Array, depth: float, work: Array
 class Range(NamedTuple):
     """How far a flight went, kept at every accepted step, so that it does not depend on the samples asked for.
 
-    depths : (2,) least and greatest depth, m. fitted : rad, magnitude to which the flow angles were fitted.
-    angles : (2, 4), for angle of attack and sideslip: seconds beyond ``fitted``, first and last time there, s, and the
-        largest magnitude, rad.
+    depths : (2, 2), least and greatest depth, m, each with its time, s.
+    limits : (3,), rad, magnitudes of angle of attack, sideslip and roll beyond which time is counted.
+    angles : (3, 4), for each of these: seconds beyond its limit, first and last time there, s, and the largest
+        magnitude, rad.
     """
 
     depths: Array
-    fitted: float
+    limits: Array
     angles: Array
 
 
-def range_of_none(fitted: float) -> Range:
-    """The range of a flight that has not begun."""
-    return Range(np.array([math.inf, -math.inf]), fitted, np.array([[0.0, math.inf, -math.inf, 0.0]] * 2))
+def range_of_none(depth: float, fitted_angle: float) -> Range:
+    """The range of a flight that begins at a depth, m; flow angles count beyond ``fitted_angle``, rad, roll at 90."""
+    limits = np.array([fitted_angle, fitted_angle, 0.5 * math.pi])
+    return Range(np.array([[depth, 0.0]] * 2), limits, np.array([[0.0, math.inf, -math.inf, 0.0]] * 3))
 
 
 @kernel
-def note_depth(reached: Range, depth: float) -> None:
-    """Widen the range to a depth, m."""
-    reached.depths[0] = min(reached.depths[0], depth)
-    reached.depths[1] = max(reached.depths[1], depth)
+def note_depth(reached: Range, t: float, depth: float) -> None:
+    """Widen the range to a depth, m, reached at time t, s."""
+    if depth < reached.depths[0, 0]:
+        reached.depths[0, 0], reached.depths[0, 1] = depth, t
+    if depth > reached.depths[1, 0]:
+        reached.depths[1, 0], reached.depths[1, 1] = depth, t
 
 
 @kernel
-def note_flow_angles(reached: Range, t: float, h: float, V: Vector) -> None:
-    """Note angle of attack and sideslip at the end t of a step of h, s, with the velocity through water V, m/s."""
+def note_angles(reached: Range, t: float, h: float, V: Vector, q_wxyz: Quaternion) -> None:
+    """Note the angles at the end t of a step of h, s, from the velocity through water V, m/s, and the attitude."""
     _, alpha, beta = flow_angles(V)
-    for i, angle in enumerate((abs(alpha), abs(beta))):
-        if angle > reached.fitted:
+    k_b = rotation_ned_body(q_wxyz)[2]
+    for i, angle in enumerate((abs(alpha), abs(beta), abs(math.atan2(k_b[1], k_b[2])))):
+        if angle > reached.limits[i]:
             reached.angles[i, 0] += h
             reached.angles[i, 1] = min(reached.angles[i, 1], t)
             reached.angles[i, 2] = max(reached.angles[i, 2], t)
@@ -225,8 +230,11 @@ def note_flow_angles(reached: Range, t: float, h: float, V: Vector) -> None:
 
 
 @kernel
-def turning_depth(y: Array, new: Array, h: float, k: Array, work: Array) -> float:
-    """Depth, m, at which the vehicle turns within a step over which its vertical velocity changes sign."""
+def turning_point(y: Array, new: Array, h: float, k: Array, work: Array) -> tuple[float, float]:
+    """Share of a step at which the vehicle turns up or down, and the depth there, m, by ternary search.
+
+    The vertical velocity must change its sign over the step.
+    """
     low, high = 0.0, 1.0
     down = k[0, 2] > 0.0
     for _ in range(40):
@@ -238,7 +246,7 @@ def turning_depth(y: Array, new: Array, h: float, k: Array, work: Array) -> floa
             low += third
         else:
             high -= third
-    return float(work[2])
+    return high, float(work[2])
 
 
 @kernel
@@ -290,7 +298,8 @@ def integrate(
             dense(out[row], y, new, h, k, (grid[row] - t) / h)
             row += 1
         if share == 1.0 and k[0, 2] * k[6, 2] < 0.0:
-            note_depth(reached, turning_depth(y, new, h, k, work))
+            at, depth = turning_point(y, new, h, k, work)
+            note_depth(reached, t + at * h, depth)
         if status == REACHED_END:
             norm = math.sqrt(new[3] ** 2 + new[4] ** 2 + new[5] ** 2 + new[6] ** 2)
             y[:] = new
@@ -300,9 +309,10 @@ def integrate(
             dense(work, y, new, h, k, share)
             y[:] = work
             y[2] = floor if status == REACHED_FLOOR else ceiling
-        note_depth(reached, y[2])
-        V, _ = through_water(state_of(y), controls_at(times, values, t_new, segment), at_depth(sea, y[2]), p, full)
-        note_flow_angles(reached, t_new, t_new - t, V)
+        note_depth(reached, t_new, y[2])
+        x = state_of(y)
+        V, _ = through_water(x, controls_at(times, values, t_new, segment), at_depth(sea, y[2]), p, full)
+        note_angles(reached, t_new, t_new - t, V, x.q_wxyz)
         t = t_new
         if status != REACHED_END:
             break

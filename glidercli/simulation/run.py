@@ -23,6 +23,7 @@ __all__ = ["Simulation", "simulate"]
 
 DEFAULT_DURATION = 3600.0  # s, of a flight with held controls
 RTOL = (1e-13, 1e-3)  # rounding; at 1e-3 an hour's spiral ends 3 mm, the shipped trial 2 cm from the exact one
+DEEPEST = 12000.0  # m; the deepest trench has 10,935
 MOST_SAMPLES = 10_000_000  # some 5 GB of log
 
 
@@ -31,6 +32,7 @@ class Simulation:
     """A simulated flight.
 
     log : every sample. energy : J, lost to the water. distance : m, over ground along the horizontal track.
+    net_buoyancy_in_water : kg, sinking positive, at the end: what was pumped and what the hull displaces there.
     wall : s of integration alone. inputs : files that it was made from.
     """
 
@@ -39,6 +41,7 @@ class Simulation:
     max_depth: float
     distance: float
     energy: float
+    net_buoyancy_in_water: float
     wall: float
     warnings: tuple[str, ...]
     inputs: tuple[Path, ...]
@@ -59,6 +62,7 @@ class Simulation:
             ],
             "distance_m": self.distance,
             "energy_j": self.energy,
+            "net_buoyancy_in_water_kg": self.net_buoyancy_in_water,
             "warnings": list(self.warnings),
             "wall_s": self.wall,
             "simulated_seconds_per_second": self.duration / self.wall if self.wall > 0.0 else None,
@@ -134,11 +138,12 @@ def simulate(
         for row in leg.values:
             check_controls(craft, *row)
     inputs += [Path(item) for item in (ctd, adcp) if item] + controls_files
+    remade = [*ocean.reconstructed, *(f for f, leg in zip(controls_files, legs, strict=False) if leg.reconstructed)]
     length = _first(duration, plan.duration_s if plan else None, DEFAULT_DURATION)
     depth = _first(start_depth, plan.start_depth_m if plan else None, 0.0)
     for name, value, least in (("duration", length, 1e-3), ("every", every, 1e-3)):
         if not (math.isfinite(value) and value >= least):
-            raise InputError(name, f"{value} is not allowed; a finite number of at least {least:g} is needed")
+            raise InputError(name, f"{value} s is not allowed; a finite number of at least {least:g} is needed")
     if not RTOL[0] <= rtol <= RTOL[1]:
         raise InputError("rtol", f"{rtol} is not allowed; {RTOL[0]:g} to {RTOL[1]:g} are")
     if length / every > MOST_SAMPLES:
@@ -146,8 +151,8 @@ def simulate(
             "duration, every",
             f"{length:g} s by {every:g} s is {length / every:.3g} samples, allowed {MOST_SAMPLES:.0e}",
         )
-    if not (math.isfinite(depth) and depth >= 0.0):
-        raise InputError("start depth", f"{depth} m is not allowed; a finite depth of at least 0 m is needed")
+    if not 0.0 <= depth <= DEEPEST:
+        raise InputError("start depth", f"{depth} m is not allowed; 0 to {DEEPEST:g} are")
     flight = fly(
         legs,
         ocean.sea,
@@ -171,7 +176,7 @@ def simulate(
         has_temperature=ocean.has_temperature,
         has_current=adcp is not None,
         origin="simulated",
-        metadata=_metadata(plan, craft, equations),
+        metadata=_metadata(plan, craft, equations, remade),
     )
     warnings = [*ocean.warnings, *_warnings(flight, craft, legs), *ocean.beyond(*flight.depths)]
     if ocean.stratified and not ocean.has_temperature and p.chi > 0.0:
@@ -182,6 +187,7 @@ def simulate(
         max_depth=flight.depths[1],
         distance=flight.distance,
         energy=float(flight.column("energy")[-1]),
+        net_buoyancy_in_water=flight.excess,
         wall=flight.wall,
         warnings=tuple(warnings),
         inputs=tuple(inputs),
@@ -233,7 +239,7 @@ def _legs(
     return [held(mass_position, mass_rotation, net_buoyancy)], []
 
 
-def _metadata(plan: Mission | None, craft: Vehicle, equations: str) -> dict[str, str]:
+def _metadata(plan: Mission | None, craft: Vehicle, equations: str, remade: list[Path]) -> dict[str, str]:
     """What a reader of the output should know."""
     told = {
         "title": plan.description if plan else f"{craft.name}, controls held",
@@ -247,15 +253,16 @@ def _metadata(plan: Mission | None, craft: Vehicle, equations: str) -> dict[str,
     }
     if plan and plan.reconstruction:
         told["reconstruction"] = plan.reconstruction
+    elif remade:
+        told["reconstruction"] = f"{', '.join(path.name for path in remade)} reconstructed, not measured"
     return told
 
 
 def _warnings(flight: Flight, craft: Vehicle, legs: list[Schedule]) -> list[str]:
     """Where the flight left the range that the model was fitted to, and controls beyond the vehicle's limits."""
-    fitted = math.degrees(craft.hydrodynamics.fitted_angle)
     found = [
-        f"{e.name} was beyond the fitted {fitted:g} deg for {e.duration:.1f} s, {e.first:.1f} to {e.last:.1f} s, "
-        f"largest {math.degrees(e.largest):.1f} deg"
+        f"{e.name} was beyond {'' if e.name == 'roll' else 'the fitted '}{math.degrees(e.limit):g} deg for "
+        f"{e.duration:.1f} s, {e.first:.1f} to {e.last:.1f} s, largest {math.degrees(e.largest):.1f} deg"
         for e in flight.excursions
     ]
     outside = {name for leg in legs for row in leg.values for name in craft.actuators.outside(*row)}

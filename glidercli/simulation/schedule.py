@@ -23,13 +23,14 @@ class Schedule:
 
     times : (n,) s from the start of the leg, increasing. values : (n, 3) mass position (m), mass rotation (rad), net
     buoyancy (kg). until_depth : m, ends the leg; NaN where none does. Before the first and after the last knot the
-    controls are held.
+    controls are held. reconstructed : whether their file says that it is a reconstruction.
     """
 
     name: str
     times: NDArray[np.float64]
     values: NDArray[np.float64]
     until_depth: float = math.nan
+    reconstructed: bool = False
 
     def __post_init__(self) -> None:
         """Own, writable arrays: the compiled integrator then has one signature."""
@@ -58,7 +59,7 @@ def read_schedule(path: Path, name: str, until_depth: float | None) -> Schedule:
         bad = np.flatnonzero(~np.isfinite(numbers))
         if len(bad):
             row = int(bad[0])
-            raise InputError(path, f"line {row + 2}: {column} = {table[column].iloc[row]!r}; a finite number is needed")
+            raise InputError(path, f"line {row + 2}: {column} = {table[column].iloc[row]}; a finite number is needed")
         table[column] = numbers
     times = table["elapsed_s"].to_numpy(dtype=float)
     back = np.flatnonzero(np.diff(times) <= 0.0)
@@ -67,4 +68,5 @@ def read_schedule(path: Path, name: str, until_depth: float | None) -> Schedule:
     values = np.column_stack(
         [table["mass_position_m"], np.radians(table["mass_rotation_deg"]), table["net_buoyancy_kg"]]
     ).astype(float)
-    return Schedule(name, times, values, math.nan if until_depth is None else until_depth)
+    reconstructed = "origin" in table and bool((table["origin"] == "reconstruction").any())
+    return Schedule(name, times, values, math.nan if until_depth is None else until_depth, reconstructed)

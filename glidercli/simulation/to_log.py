@@ -75,10 +75,7 @@ def to_log(
         else Channel(name, time_ns, column, origin)
         for name, column in values.items()
     }
-    deepest = int(values["depth"].argmax())
     events = [Event("start", int(time_ns[0]), float(values["depth"][0]))]
-    if 0 < deepest < len(time_ns) - 1:
-        events.append(Event("apogee", int(time_ns[deepest]), float(values["depth"][deepest])))
     events += [Event(e.name, start_ns + round(e.time * 1e9), e.depth) for e in flight.events]
     told = dict(metadata)
     if start is None:

@@ -170,11 +170,14 @@ def test_missing_and_empty_files(tmp_path: Path, logs) -> None:
     assert "empty.csv" in failed(glider(logs[0], tmp_path / "empty.csv"), 1)
 
 
-@pytest.mark.parametrize(
-    "options", [("--align", "best"), ("--max-gap", "0"), ("--max-gap", "nan"), ("--offset", "inf"), ("--max-gop", "3")]
-)
+@pytest.mark.parametrize("options", [("--align", "best"), ("--max-gap", "soon"), ("--max-gop", "3")])
 def test_wrong_usage(logs, options: tuple[str, ...]) -> None:
     assert options[0] in failed(glider(*logs, *options), 2)
+
+
+@pytest.mark.parametrize("options", [("--max-gap", "0"), ("--max-gap", "nan"), ("--offset", "inf")])
+def test_a_number_out_of_range_is_bad_input(logs, options: tuple[str, ...]) -> None:
+    assert options[0] in failed(glider(*logs, *options), 1)
 
 
 def test_a_simulated_log_is_needed(logs) -> None:
@@ -221,3 +224,22 @@ def test_debug_shows_the_traceback(tmp_path: Path, logs) -> None:
 def test_a_folder_with_facts_stands_for_them(logs, facts: Path) -> None:
     found = json.loads(glider(facts.parent, logs[1], "--json").stdout)
     assert [one["name"] for one in found["facts"]] == ["maximum depth", "pitch on the dive", "roll"]
+
+
+def test_records_dropped_on_reading_are_counted(tmp_path: Path, logs) -> None:
+    lines = logs[1].read_text().splitlines(keepends=True)
+    dirty = tmp_path / "dirty.csv"
+    dirty.write_text("".join([*lines[:5], "garbage\n", *lines[5:]]))
+    result = glider(logs[0], dirty)
+    assert result.returncode == 0
+    assert f"dirty.csv: 1 of {len(lines)} records dropped: 1 wrong number of fields" in result.stderr
+
+
+def test_a_measured_log_on_the_simulated_side_is_said(logs) -> None:
+    assert "measured, and stands here as a simulation" in glider(logs[0], logs[0]).stderr
+
+
+def test_an_input_is_never_replaced(logs) -> None:
+    before = logs[1].read_bytes()
+    assert "input" in failed(glider(*logs, "-o", logs[1], "--force"), 1)
+    assert logs[1].read_bytes() == before

@@ -142,3 +142,85 @@ def test_a_tolerance_that_gives_no_answer_is_refused(glider: Run, rtol: str) -> 
 
 def test_more_net_buoyancy_than_mass_is_refused(glider: Run) -> None:
     one_line_error(glider("simulate", "--net-buoyancy", "1e6", *CONTROLS[2:]), "net buoyancy", "65.28 kg")
+
+
+RECONSTRUCTED = ROOT / "logs/south-china-sea-2011"
+
+
+@pytest.mark.parametrize("option", [("--ctd", "water.csv"), ("--adcp", "current.csv")])
+def test_what_is_made_from_a_reconstruction_says_so(glider: Run, tmp_path: Path, option: tuple[str, str]) -> None:
+    flown = glider("simulate", *CONTROLS, "--duration", "20", option[0], RECONSTRUCTED / option[1], "-o", "f.csv")
+    assert flown.stdout.startswith("SIMULATED FROM A RECONSTRUCTION: " + option[1])
+    assert {row["origin"] for row in csv.DictReader((tmp_path / "f.csv").read_text().splitlines())} == {
+        "reconstruction"
+    }
+    assert "simulated, made with a reconstruction" in glider("compare", "south-china-sea-2011", "f.csv").stdout
+
+
+def test_a_plan_that_borrows_reconstructed_controls_says_so(glider_json: Callable[..., Any], tmp_path: Path) -> None:
+    (tmp_path / "dive.csv").write_text((RECONSTRUCTED / "dive.csv").read_text())
+    plan = 'name = "mine"\ndescription = "a plan"\nduration_s = 60\n[[leg]]\nname = "dive"\ncontrols = "dive.csv"\n'
+    (tmp_path / "plan.toml").write_text(plan)
+    assert "dive.csv" in glider_json("simulate", "plan.toml")["reconstruction"]
+
+
+def test_bins_left_out_are_counted_and_named(glider_json: Callable[..., Any], tmp_path: Path) -> None:
+    head = "depth_m,current_east_m_s,current_north_m_s"
+    table(tmp_path / "adcp.csv", head, "0,0.1,0", "2,nan,0", "4,-32.768,0", "6,99,0", "8,,0", "10,0.2,0")
+    warnings = glider_json("simulate", *CONTROLS, "--duration", "20", "--adcp", "adcp.csv")["warnings"]
+    (counted,) = [line for line in warnings if "left out" in line]
+    assert "4 of 6 bins" in counted
+    assert all(reason in counted for reason in ("2 gap", "1 bad-velocity mark", "1 faster than 5 m/s"))
+    assert any("interpolated" in line and "10 m" in line for line in warnings)
+    cast = glider_json("simulate", *CONTROLS, "--duration", "20", "--ctd", CNV)["warnings"]
+    assert any("42 of 1014 samples left out" in line for line in cast)  # as counted from the file by hand
+
+
+@pytest.mark.parametrize("salinity", ["0.035", "35"])
+def test_salinity_in_kg_per_kg_is_doubted(glider_json: Callable[..., Any], tmp_path: Path, salinity: str) -> None:
+    table(tmp_path / "c.csv", "depth_m,temperature_degC,salinity", f"0,10,{salinity}", f"100,9,{salinity}")
+    warnings = glider_json("simulate", *CONTROLS, "--duration", "20", "--ctd", "c.csv")["warnings"]
+    assert any("0.035 kg/kg" in line for line in warnings) == (salinity == "0.035")
+
+
+def test_water_that_would_overturn_is_doubted(glider_json: Callable[..., Any], tmp_path: Path) -> None:
+    table(tmp_path / "c.csv", "depth_m,density_kg_m3", "0,1026", "50,1024", "100,1025")
+    warnings = glider_json("simulate", *CONTROLS, "--duration", "20", "--ctd", "c.csv")["warnings"]
+    assert any("falls with depth by up to 2.00 kg/m3" in line for line in warnings)
+
+
+def test_an_input_is_never_replaced(glider: Run, tmp_path: Path) -> None:
+    head = "depth_m,current_east_m_s,current_north_m_s"
+    path = table(tmp_path / "adcp.csv", head, "0,0.1,0", "20,0.2,0")
+    before = path.read_bytes()
+    done = glider("simulate", *CONTROLS, "--duration", "20", "--adcp", "adcp.csv", "-o", "adcp.csv", "--force")
+    one_line_error(done, "adcp.csv", "input")
+    assert path.read_bytes() == before
+    assert [item.name for item in tmp_path.iterdir()] == ["adcp.csv"]
+
+
+def test_outputs_appear_all_or_none(glider: Run, tmp_path: Path) -> None:
+    (tmp_path / "closed.rrd").mkdir()
+    one_line_error(glider("simulate", *CONTROLS, "--duration", "9", "-o", "a.csv", "-o", "closed.rrd"), "closed.rrd")
+    one_line_error(
+        glider("simulate", *CONTROLS, "--duration", "9", "-o", "a.csv", "-o", "b" * 250 + ".rrd"), "too long"
+    )
+    one_line_error(glider("simulate", *CONTROLS, "--duration", "9", "-o", "a.csv", "-o", "/proc/b.rrd"), "/proc/b.rrd")
+    assert [item.name for item in tmp_path.iterdir()] == ["closed.rrd"]
+
+
+def test_the_net_buoyancy_in_the_water_is_told(glider_json: Callable[..., Any], tmp_path: Path) -> None:
+    table(tmp_path / "c.csv", "depth_m,density_kg_m3", "0,1025", "100,1027.05")
+    uniform = glider_json("simulate", *CONTROLS, "--duration", "20")
+    assert uniform["net_buoyancy_in_water_kg"] == pytest.approx(0.3, abs=1e-12)  # rounding
+    flown = glider_json("simulate", *CONTROLS, "--duration", "3600", "--ctd", "c.csv")
+    density = flown["final"]["density_kg_m3"]
+    expected = 0.3 * density / 1025.0 + 65.28 * (1.0 - density / 1025.0)  # rigid hull of 54.28 + 11 kg, Table 1
+    assert flown["final"]["net_buoyancy_kg"] == 0.3
+    assert flown["net_buoyancy_in_water_kg"] == pytest.approx(
+        expected, abs=1e-6
+    )  # density is printed to the last digit
+
+
+def test_an_absurd_start_depth_is_refused(glider: Run) -> None:
+    one_line_error(glider("simulate", *CONTROLS, "--start-depth", "1e9"), "start depth", "12000")

@@ -144,7 +144,7 @@ def test_a_reconstruction_is_named_everywhere(tmp_path: Path) -> None:
     }  # fmt: skip
     assert found.document()["channels"]["depth"]["origins"] == {"measured": "reconstruction", "simulated": "simulated"}
     for ending in ("csv", "json", "svg"):
-        write(found, tmp_path / f"out.{ending}", {})
+        write(found, tmp_path / f"out.{ending}", provenance={})
         assert "controls from printed figures" in (tmp_path / f"out.{ending}").read_text()
     assert "reconstruction" in (tmp_path / "out.csv-metadata.json").read_text()
     assert compare(flight(), flight("simulated")).origin == "simulated"
@@ -152,7 +152,7 @@ def test_a_reconstruction_is_named_everywhere(tmp_path: Path) -> None:
 
 def test_the_csv(tmp_path: Path) -> None:
     found = compare(flight(), flight("simulated", depth=2.0))
-    write(found, tmp_path / "errors.csv", {"program": "x"})
+    write(found, tmp_path / "errors.csv", provenance={"program": "x"})
     with (tmp_path / "errors.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert {(row["phase"], row["channel"]) for row in rows} == {
@@ -164,7 +164,7 @@ def test_the_csv(tmp_path: Path) -> None:
 
 def test_the_csv_of_facts(tmp_path: Path) -> None:
     facts = read_facts(Path(__file__).with_name("trial.toml"))
-    write(compare(facts, flight("simulated")), tmp_path / "facts.csv", {})
+    write(compare(facts, flight("simulated")), tmp_path / "facts.csv", provenance={})
     with (tmp_path / "facts.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert [row["name"] for row in rows] == [fact.name for fact in facts.facts]
@@ -175,13 +175,13 @@ def test_the_csv_of_facts(tmp_path: Path) -> None:
 def test_outputs_that_cannot_be_written(tmp_path: Path) -> None:
     found = compare(flight(), flight("simulated"))
     with pytest.raises(OutputError, match=r"allowed: \.csv \.json \.png \.svg \.pdf"):
-        write(found, tmp_path / "report.html", {})
+        write(found, tmp_path / "report.html", provenance={})
     (tmp_path / "errors.csv").write_text("kept")
     with pytest.raises(OutputError, match="exists"):
-        write(found, tmp_path / "errors.csv", {})
+        write(found, tmp_path / "errors.csv", provenance={})
     assert (tmp_path / "errors.csv").read_text() == "kept"
     assert [path.name for path in tmp_path.iterdir()] == ["errors.csv"]
-    write(found, tmp_path / "errors.csv", {}, force=True)
+    write(found, tmp_path / "errors.csv", provenance={}, force=True)
     assert (tmp_path / "errors.csv").read_text() != "kept"
 
 
@@ -189,3 +189,22 @@ def test_a_channel_without_a_comparable_sample_stays_with_its_counts() -> None:
     simulated = flight("simulated").with_channels(channel("pitch", T + 1e5, 0.0 * T, "simulated"))
     found = compare(flight(), simulated).document()["channels"]["pitch"]
     assert (found["n"], found["rmse"], found["skipped"]) == (0, None, {"outside": len(T), "gap": 0})
+
+
+def test_channels_counted_from_different_zeros_are_said(tmp_path: Path) -> None:
+    measured = flight(metadata={"depth_zero": "the rail"})
+    found = compare(measured, flight("simulated"))
+    (note,) = found.document()["notes"]
+    assert "depth is counted from different zeros (measured: the rail)" in note
+    assert note in found.text()
+    assert compare(measured, flight("simulated", metadata={"depth_zero": "the rail"})).document()["notes"] == []
+    write(found, tmp_path / "errors.csv", provenance={})
+    assert json.loads((tmp_path / "errors.csv-metadata.json").read_text())["notes"] == [note]
+
+
+def test_all_outputs_appear_or_none(tmp_path: Path) -> None:
+    (tmp_path / "figure.png").mkdir()
+    found = compare(flight(), flight("simulated"))
+    with pytest.raises(OutputError, match=r"figure\.png"):
+        write(found, tmp_path / "a.csv", tmp_path / "figure.png", provenance={}, force=True)
+    assert [path.name for path in tmp_path.iterdir()] == ["figure.png"]

@@ -209,3 +209,10 @@ def test_files_that_are_no_facts(tmp_path: Path, content: bytes, fault: str) -> 
 def test_a_missing_file(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no such file"):
         read_facts(tmp_path / "facts.toml")
+
+
+def test_facts_given_to_the_simulation_are_counted_apart() -> None:
+    entries = tuple(Fact(str(i), "max_depth", 800.0, "m", 1.0, "p", given=i < 2) for i in range(3))
+    found = glidercli.compare(Facts("source", "", entries), flight())
+    assert "Of 3 facts: 3 agree (2 of them given to the simulation), 0 disagree" in found.text()
+    assert [one["given"] for one in found.document()["facts"]] == [True, True, False]

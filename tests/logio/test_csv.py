@@ -147,3 +147,40 @@ def test_a_table_that_does_not_say_is_warned_of(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("elapsed_s,depth_m\n0,1\n")
     reading = read([tmp_path / "a.csv"])
     assert reading.files[0].warnings == ("taken as measured: the table does not say where its values come from",)
+
+
+def mixed() -> Log:
+    times = np.array([0, 10**9], np.int64)
+    depth, north = (
+        Channel(name, times, np.array([1.0, 2.0]), kind) for name, kind in (("depth", "measured"), ("north", "derived"))
+    )
+    return Log({"depth": depth, "north": north}, "measured", {"provenance": "{}"})
+
+
+def test_a_table_parted_from_its_metadata_calls_nothing_derived_measured(tmp_path: Path) -> None:
+    write(mixed(), tmp_path / "a.csv")
+    whole = read([tmp_path / "a.csv"]).log
+    assert [whole[name].origin for name in ("depth", "north")] == ["measured", "derived"]
+    (tmp_path / "a.csv-metadata.json").unlink()
+    parted = read([tmp_path / "a.csv"])
+    assert [parted.log[name].origin for name in ("depth", "north")] == ["derived", "derived"]
+    assert parted.log.origin == "measured"
+    assert any("which channels are derived is not known" in line for line in parted.files[0].warnings)
+
+
+def test_metadata_of_another_table_are_refused(tmp_path: Path) -> None:
+    write(mixed(), tmp_path / "a.csv")
+    made = {name: Channel(name, c.time_ns, c.values, "simulated") for name, c in mixed().channels.items()}
+    write(Log(made, "simulated", {"provenance": "{}"}), tmp_path / "b.csv")
+    (tmp_path / "b.csv-metadata.json").write_bytes((tmp_path / "a.csv-metadata.json").read_bytes())
+    with pytest.raises(InputError, match=r"rows say simulated, b\.csv-metadata\.json says measured and derived"):
+        read([tmp_path / "b.csv"])
+
+
+def test_a_table_changed_since_is_said(tmp_path: Path) -> None:
+    write(mixed(), tmp_path / "a.csv")
+    assert read([tmp_path / "a.csv"]).files[0].warnings == ()
+    text = (tmp_path / "a.csv").read_text().splitlines(keepends=True)
+    (tmp_path / "a.csv").write_text("".join(text[:-1]))
+    (warning,) = read([tmp_path / "a.csv"]).files[0].warnings
+    assert "has changed since a.csv-metadata.json was written" in warning

@@ -18,7 +18,8 @@ def test_a_plain_profile(write):
 
 def test_gaps_marks_and_wild_values_are_dropped_by_reason(write):
     text = (
-        HEAD.strip() + ",current_up_m_s\n5,0.1,0.2,0.01\n10,,0.2,0\n15,NaN,,0\n20,-32.768,-32.768,-32.768\n25,4,4,0\n30,inf,0,0\n"
+        HEAD.strip()
+        + ",current_up_m_s\n5,0.1,0.2,0.01\n10,,0.2,0\n15,NaN,,0\n20,-32.768,-32.768,-32.768\n25,4,4,0\n30,inf,0,0\n"
     )
     profile = read_adcp(write("adcp.csv", text))
     assert profile.depth.tolist() == [5.0]
