@@ -95,6 +95,7 @@ def _write(document: dict[str, Any], path: Path, vehicle: str, force: bool) -> N
 def _table(t: dict[str, Any]) -> str:
     """The trim for people: the ten parameters, then what follows from them."""
     radius = f"{t['turning_radius_m']:.2f} m" if math.isfinite(t["turning_radius_m"]) else "straight"
+    vertical = t["vertical_speed_m_s"]
     rows = [
         ("speed", f"{t['speed_m_s']:.4f} m/s"),
         ("angle of attack", f"{t['angle_of_attack_deg']:.4f} deg"),
@@ -106,7 +107,7 @@ def _table(t: dict[str, Any]) -> str:
         ("mass rotation", f"{t['mass_rotation_deg']:.2f} deg"),
         ("net buoyancy", f"{t['net_buoyancy_kg']:.4f} kg"),
         ("turning radius", radius),
-        ("vertical speed", f"{t['vertical_speed_m_s']:.4f} m/s down"),
+        ("vertical speed", f"{abs(vertical):.4f} m/s {'down' if vertical >= 0.0 else 'up'}"),
         ("horizontal speed", f"{t['horizontal_speed_m_s']:.4f} m/s"),
         ("glide angle", f"{t['glide_angle_deg']:.2f} deg"),
         ("lift to drag", f"{t['lift_to_drag']:.3f}"),

@@ -142,5 +142,8 @@ def _read_one(path: Path, format: str | None) -> tuple[Log, FileReport]:
     readable_file(path)
     name = format or _format_of(path)
     if name is None:
-        raise InputError(path, f"is not a log that can be read; readable are {', '.join(FORMATS)}")
+        with path.open("rb") as stream:
+            packed = stream.read(2) == b"\x1f\x8b"
+        what = "is gzip data that unpack to no log: damaged, or not one" if packed else "is not a log that can be read"
+        raise InputError(path, f"{what}; readable are {', '.join(FORMATS)}")
     return FORMATS[name][1](path)

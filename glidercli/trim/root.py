@@ -150,4 +150,13 @@ def solve_forward(goal: Controls, nominal_position: float, water: Water, p: Para
     raise NoSolutionError(
         f"no steady glide found for net buoyancy {goal.mb:g} kg, mass position {goal.rrx:g} m, mass rotation "
         f"{math.degrees(goal.gamma):g} deg: {why} speed {V:.3f} m/s, {', '.join(degrees)}"
+        f"{_usual_reason(goal, nominal_position)}"
     )
+
+
+def _usual_reason(goal: Controls, level: float) -> str:
+    """The usual reason: the mass lies on the wrong side of the position, m, that holds the hull level."""
+    if (goal.rrx - level) * goal.mb >= 0.0:
+        return ""
+    way, needed = ("sinking", "forward") if goal.mb > 0.0 else ("rising", "aft")
+    return f"; a {way} glider needs the mass {needed} of {level:g} m, where it holds the hull level"

@@ -94,3 +94,9 @@ def test_an_upside_down_solution_is_no_answer(glider: Run) -> None:
 
 def test_more_net_buoyancy_than_mass_is_refused(glider: Run) -> None:
     one_line_error(glider("trim", "--net-buoyancy", "1e6", *PINS[2:]), "net buoyancy", "65.28 kg")
+
+
+@pytest.mark.parametrize(("buoyancy", "position", "needed"), [("0.3", "0.15", "forward"), ("-0.3", "0.6", "aft")])
+def test_a_mass_on_the_wrong_side_is_explained(glider: Run, buoyancy: str, position: str, needed: str) -> None:
+    done = glider("trim", "--net-buoyancy", buoyancy, "--mass-position", position, "--mass-rotation", "0")
+    one_line_error(done, f"needs the mass {needed} of 0.4016 m")
