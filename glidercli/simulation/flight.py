@@ -25,9 +25,9 @@ from glidercli.simulation.integrator import (
     STEP_TOO_SMALL,
     controls_at,
     integrate,
-    range_of_none,
     state_of,
 )
+from glidercli.simulation.reach import range_of_none
 from glidercli.simulation.schedule import Schedule
 
 __all__ = ["Excursion", "Flight", "FlightEvent", "fly"]

@@ -17,14 +17,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.frames import Quaternion, Vector, rotation_ned_body
 from glidercli.kernel import kernel
 from glidercli.model.equations import State, rates, through_water
-from glidercli.model.hydrodynamics import flow_angles
 from glidercli.model.parameters import Controls, Parameters
 from glidercli.ocean.water import Sea, at_depth
+from glidercli.simulation.reach import Range, note_angles, note_depth
 
-__all__ = ["Range", "Run", "controls_at", "integrate", "range_of_none", "state_of"]
+__all__ = ["Run", "controls_at", "integrate", "state_of"]
 
 Array = NDArray[np.float64]
 
@@ -185,48 +184,6 @@ def crossing(y: Array, new: Array, h: float, k: Array, depth: float, work: Array
         else:
             high = middle
     return high
-
-
-class Range(NamedTuple):
-    """How far a flight went, kept at every accepted step, so that it does not depend on the samples asked for.
-
-    depths : (2, 2), least and greatest depth, m, each with its time, s.
-    limits : (3,), rad, magnitudes of angle of attack, sideslip and roll beyond which time is counted.
-    angles : (3, 4), for each of these: seconds beyond its limit, first and last time there, s, and the largest
-        magnitude, rad.
-    """
-
-    depths: Array
-    limits: Array
-    angles: Array
-
-
-def range_of_none(depth: float, fitted_angle: float) -> Range:
-    """The range of a flight that begins at a depth, m; flow angles count beyond ``fitted_angle``, rad, roll at 90."""
-    limits = np.array([fitted_angle, fitted_angle, 0.5 * math.pi])
-    return Range(np.array([[depth, 0.0]] * 2), limits, np.array([[0.0, math.inf, -math.inf, 0.0]] * 3))
-
-
-@kernel
-def note_depth(reached: Range, t: float, depth: float) -> None:
-    """Widen the range to a depth, m, reached at time t, s."""
-    if depth < reached.depths[0, 0]:
-        reached.depths[0, 0], reached.depths[0, 1] = depth, t
-    if depth > reached.depths[1, 0]:
-        reached.depths[1, 0], reached.depths[1, 1] = depth, t
-
-
-@kernel
-def note_angles(reached: Range, t: float, h: float, V: Vector, q_wxyz: Quaternion) -> None:
-    """Note the angles at the end t of a step of h, s, from the velocity through water V, m/s, and the attitude."""
-    _, alpha, beta = flow_angles(V)
-    k_b = rotation_ned_body(q_wxyz)[2]
-    for i, angle in enumerate((abs(alpha), abs(beta), abs(math.atan2(k_b[1], k_b[2])))):
-        if angle > reached.limits[i]:
-            reached.angles[i, 0] += h
-            reached.angles[i, 1] = min(reached.angles[i, 1], t)
-            reached.angles[i, 2] = max(reached.angles[i, 2], t)
-            reached.angles[i, 3] = max(reached.angles[i, 3], angle)
 
 
 @kernel
