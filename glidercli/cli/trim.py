@@ -112,6 +112,7 @@ def _table(t: dict[str, Any]) -> str:
         ("glide angle", f"{t['glide_angle_deg']:.2f} deg"),
         ("lift to drag", f"{t['lift_to_drag']:.3f}"),
         ("residual", f"{t['residual']:.1e} N or N m, {t['iterations']} iterations, {t['equations']} equations"),
+        ("stable", "yes" if t["stable"] else "no"),
         ("within limits", "yes" if t["within_limits"] else "no"),
     ]
     return "\n".join(f"{name:<17}{value}" for name, value in rows)

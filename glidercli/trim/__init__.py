@@ -45,6 +45,7 @@ def trim(
     from glidercli.ocean.water import Water
     from glidercli.trim.result import lift_to_drag, speeds
     from glidercli.trim.root import solve_forward
+    from glidercli.trim.stability import growth_rate, linearised
     from glidercli.units import STANDARD_GRAVITY
     from glidercli.vehicle import load_vehicle
     from glidercli.vehicle.controls import check_controls
@@ -61,6 +62,7 @@ def trim(
     speed, alpha, beta, omega3, phi, theta = (float(item) for item in solution.unknowns)
     if mass_rotation == 0.0:
         beta, omega3, phi = 0.0, 0.0, 0.0  # by symmetry; Newton leaves rounding there
+    growth = growth_rate(linearised(solution.unknowns, controls, water, p))
     vertical, horizontal = speeds(speed, alpha, beta, phi, theta)
     along = speed * math.cos(theta - alpha) if equations == "paper" else horizontal
     outside = craft.actuators.outside(mass_position, mass_rotation, net_buoyancy)
@@ -71,6 +73,9 @@ def trim(
         for name, angle in (("angle of attack", alpha), ("sideslip", beta))
         if abs(angle) > fitted
     ]
+    if growth >= 0.0:
+        time = 1.0 / max(growth, 1e-9)
+        warnings.append(f"this trim is not stable: a deviation grows e-fold in {time:.3g} s, the flight ends elsewhere")
     return Trim(
         speed=speed,
         angle_of_attack=alpha,
@@ -90,6 +95,7 @@ def trim(
         method="root",
         equations=equations,
         within_limits=not outside,
+        stable=growth < 0.0,
         warnings=tuple(warnings),
     )
 

@@ -20,7 +20,7 @@ class Trim:
     """A steady flight: a straight glide or a spiral about the vertical. SI and radians.
 
     The first nine and the turning radius are the paper's ten parameters (section 4). residual is the largest of the
-    six equations (28), (29), N or N m. stable is None where it was not computed.
+    six equations (28), (29), N or N m. stable tells whether small deviations decay; None where it was not computed.
     """
 
     speed: float
