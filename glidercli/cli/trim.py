@@ -1,15 +1,18 @@
-"""``glider trim``: the steady flight of three controls."""
+"""``glider trim``: the steady flight of three controls, or the controls of a steady flight."""
 
 from __future__ import annotations
 
 import math
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from glidercli.cli.options import Debug, Equations, EquationsOption, Force, Json, Quiet, Vehicle, output_option
+from glidercli.cli.options import Debug, Equations, Force, Json, Quiet, Vehicle, output_option
+
+if TYPE_CHECKING:
+    from glidercli.trim.recursion import Recursion
 
 _PINS = "Pins: three that determine a trim"
 
@@ -18,9 +21,13 @@ class Method(StrEnum):
     """How a trim is solved."""
 
     ROOT = "root"
+    RECURSION = "recursion"
 
 
 def trim(
+    speed: Annotated[float | None, typer.Option(help="Speed through water, m/s.", rich_help_panel=_PINS)] = None,
+    angle_of_attack: Annotated[float | None, typer.Option(help="Angle of attack, deg.", rich_help_panel=_PINS)] = None,
+    sideslip: Annotated[float | None, typer.Option(help="Sideslip, deg.", rich_help_panel=_PINS)] = None,
     net_buoyancy: Annotated[
         float | None, typer.Option(help="Net buoyancy, kg, sinking positive.", rich_help_panel=_PINS)
     ] = None,
@@ -31,43 +38,112 @@ def trim(
         float | None, typer.Option(help="Rotation of the movable mass, deg.", rich_help_panel=_PINS)
     ] = None,
     vehicle: Vehicle = "seawing",
-    equations: EquationsOption = Equations.FULL,
-    method: Annotated[Method, typer.Option(help="How the trim is solved.")] = Method.ROOT,
+    equations: Annotated[
+        Equations | None,
+        typer.Option(
+            help="full: the whole model; paper: as printed, CA left out [default: full; paper with recursion].",
+            show_default=False,
+        ),
+    ] = None,
+    method: Annotated[
+        Method, typer.Option(help="root: from the three controls; recursion: from speed and flow angles.")
+    ] = Method.ROOT,
+    trace: Annotated[bool, typer.Option("--trace", help="Print every iterate of the recursion, eq. (44).")] = False,
     output: Annotated[list[Path] | None, output_option(".json .csv")] = None,
     force: Force = False,
     json: Json = False,
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> None:
-    """Steady flight: a straight glide or a spiral, from net buoyancy, mass position and mass rotation."""
+    """Steady flight: a straight glide or a spiral, from its controls, or its controls from the flight."""
     from glidercli.cli.printing import json_text, warn
     from glidercli.errors import UsageError
     from glidercli.files import check_outputs
-    from glidercli.trim import trim as solve
 
-    pins = {"net-buoyancy": net_buoyancy, "mass-position": mass_position, "mass-rotation": mass_rotation}
-    missing = [f"--{name}" for name, value in pins.items() if value is None]
-    if net_buoyancy is None or mass_position is None or mass_rotation is None:
-        raise UsageError(f"too few pins: {' and '.join(missing)} would complete the trim")
+    flow = {"speed": speed, "angle-of-attack": angle_of_attack, "sideslip": sideslip}
+    controls = {"net-buoyancy": net_buoyancy, "mass-position": mass_position, "mass-rotation": mass_rotation}
+    by_recursion = method is Method.RECURSION
+    taken = _pins(method, *((flow, controls) if by_recursion else (controls, flow)))
+    if by_recursion and equations is Equations.FULL:
+        raise UsageError("--method recursion solves the paper's equilibrium; --equations full contradicts it")
+    if trace and not by_recursion:
+        raise UsageError("--trace prints the iterates of --method recursion; it needs that method")
     outputs = output or []
     if json and Path("-") in outputs:
         raise UsageError("-o - and --json both want stdout; leave one out")
     check_outputs(outputs, (".json", ".csv"), force)
-    found = solve(
-        vehicle,
-        net_buoyancy=net_buoyancy,
-        mass_position=mass_position,
-        mass_rotation=math.radians(mass_rotation),
-        equations=equations.value,
-    )
-    warn(found.warnings, quiet)
-    document = {"trims": [found.document()]}
+    sequences: list[Recursion] = []
+    if by_recursion:
+        from glidercli.trim import trims_by_recursion
+
+        found, sequences = trims_by_recursion(
+            vehicle, speed=taken[0], angle_of_attack=math.radians(taken[1]), sideslip=math.radians(taken[2])
+        )
+    else:
+        from glidercli.trim import trim as solve
+
+        one = solve(
+            vehicle,
+            net_buoyancy=taken[0],
+            mass_position=taken[1],
+            mass_rotation=math.radians(taken[2]),
+            equations=(equations or Equations.FULL).value,
+        )
+        found = [one]
+    warn(found[0].warnings, quiet)
+    document: dict[str, Any] = {"trims": [one.document() for one in found]}
+    if trace:
+        document["trace"] = [_sequence(one) for one in sequences]
     for path in outputs:
         _write(document, path, vehicle, force)
     if json:
         print(json_text(document))
     elif Path("-") not in outputs:
-        print(_table(found.document()))
+        parts = [_trace(one) for one in document.get("trace", [])]
+        titles = [f"solution {i} of {len(found)}\n" if len(found) > 1 else "" for i in range(1, len(found) + 1)]
+        parts += [title + _table(one) for title, one in zip(titles, document["trims"], strict=True)]
+        print("\n\n".join(parts))
+
+
+def _pins(method: Method, wanted: dict[str, float | None], others: dict[str, float | None]) -> list[float]:
+    """The values of the three pins that a method takes; UsageError where one is missing or another is given."""
+    from glidercli.errors import UsageError
+
+    extra = [f"--{name}" for name, value in others.items() if value is not None]
+    if extra:
+        takes = ", ".join(f"--{name}" for name in wanted)
+        raise UsageError(f"--method {method.value} takes {takes}; it cannot take {', '.join(extra)}")
+    missing = [f"--{name}" for name, value in wanted.items() if value is None]
+    if missing:
+        raise UsageError(f"too few pins: {' and '.join(missing)} would complete the trim")
+    return [value for value in wanted.values() if value is not None]
+
+
+def _sequence(one: Recursion) -> dict[str, Any]:
+    """One sequence of the recursion as plain values: the vector D of eq. (44), pass by pass."""
+    rows = [
+        {
+            "pitch_deg": math.degrees(D.pitch),
+            "roll_deg": math.degrees(D.roll),
+            "net_buoyancy_kg": D.mb,
+            "mass_rotation_deg": math.degrees(D.gamma),
+            "yaw_rate_rad_s": D.omega3,
+            "mass_position_m": D.rrx,
+        }
+        for D in one.iterates
+    ]
+    start = "sinking" if one.sinks > 0 else "rising"
+    return {"start": start, "root": one.root, "converged": one.converged, "residual": one.residual, "iterates": rows}
+
+
+def _trace(sequence: dict[str, Any]) -> str:
+    """A sequence for people, a line each pass."""
+    rows = sequence["iterates"]
+    end = "a trim" if sequence["converged"] else "no trim"
+    lines = [f"{sequence['start']}, root {sequence['root']:+d}: {end}, residual {sequence['residual']:.1e} N or N m"]
+    lines.append("pass  " + "  ".join(f"{name:>18}" for name in rows[0]))
+    lines += [f"{i:>4}  " + "  ".join(f"{v:>18.12f}" for v in row.values()) for i, row in enumerate(rows, start=1)]
+    return "\n".join(lines)
 
 
 def _write(document: dict[str, Any], path: Path, vehicle: str, force: bool) -> None:

@@ -30,7 +30,14 @@ from glidercli.model.mass import first_moment, momentum, movable_momentum, veloc
 from glidercli.model.parameters import Controls, Parameters
 from glidercli.ocean.water import Water
 
-__all__ = ["Rates", "State", "equilibrium", "rates", "through_water", "wrench"]
+__all__ = ["EQUATIONS", "Rates", "State", "equilibrium", "rates", "through_water", "wrench"]
+
+
+EQUATIONS = (
+    "force along x (28)", "force along y (28)", "force along z (28)",
+    "roll moment (29)", "pitch moment (29)", "yaw moment (29)",
+)  # fmt: skip
+"""Names of what ``equilibrium`` gives."""
 
 
 class State(NamedTuple):

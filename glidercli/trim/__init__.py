@@ -8,13 +8,18 @@ from __future__ import annotations
 import math
 import sys
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from glidercli.errors import InputError
+from glidercli.errors import InputError, NoSolutionError
 from glidercli.trim.result import Trim
 from glidercli.vehicle.vehicle import Vehicle
 
-__all__ = ["Trim", "trim"]
+if TYPE_CHECKING:
+    from glidercli.model.parameters import Parameters
+    from glidercli.ocean.water import Water
+    from glidercli.trim.recursion import Recursion
+
+__all__ = ["Trim", "trim", "trims_by_recursion"]
 
 
 def trim(
@@ -41,63 +46,78 @@ def trim(
     NoSolutionError
         There is no such flight, or none was found: the message says what fails.
     """
-    from glidercli.model.parameters import Controls, parameters, without_coupling
-    from glidercli.ocean.water import Water
-    from glidercli.trim.result import lift_to_drag, speeds
+    from glidercli.model.parameters import Controls
+    from glidercli.trim.result import trim_of
     from glidercli.trim.root import solve_forward
-    from glidercli.trim.stability import growth_rate, linearised
+    from glidercli.vehicle.controls import check_controls
+
+    craft, p, water = _setting(vehicle, equations)
+    check_controls(craft, mass_position, mass_rotation, net_buoyancy)
+    controls = Controls(mass_position, mass_rotation, net_buoyancy)
+    found = solve_forward(controls, craft.actuators.mass_position.nominal, water, p)
+    x = [float(item) for item in found.unknowns]
+    if mass_rotation == 0.0:
+        x[2] = x[3] = x[4] = 0.0  # beta, omega_3, phi: by symmetry; Newton leaves rounding there
+    return trim_of(
+        x, controls, craft, water, p,
+        equations=equations, method="root", residual=found.residual, iterations=found.iterations,
+    )  # fmt: skip
+
+
+def trims_by_recursion(
+    vehicle: Vehicle | str = "seawing", *, speed: float, angle_of_attack: float, sideslip: float
+) -> tuple[list[Trim], list[Recursion]]:
+    """The steady flights of a speed, angle of attack and sideslip, by the paper's recursion and its equations.
+
+    vehicle : as for ``trim``. speed : m/s. angle_of_attack, sideslip : rad, within 90 deg.
+
+    Returns every trim found, those within the vehicle's limits first, the quadrants of Table 4 before others, stable
+    before unstable; and the sequences, for their iterates.
+
+    Raises
+    ------
+    InputError
+        The speed is not positive, or an angle is not within 90 deg.
+    NoSolutionError
+        No sequence reaches a trim; the message names the equation furthest from zero at the nearest point.
+    """
+    from glidercli.model.hydrodynamics import velocity_from_flow
+    from glidercli.trim.recursion import nearest_miss, recursions
+    from glidercli.trim.result import ranked, trim_of
+
+    if not (math.isfinite(speed) and speed > 0.0):
+        raise InputError("speed", f"{speed} m/s is not allowed; a finite number greater than 0 is needed")
+    for name, angle in (("angle of attack", angle_of_attack), ("sideslip", sideslip)):
+        if not abs(angle) < 0.5 * math.pi:
+            raise InputError(name, f"{math.degrees(angle):g} deg is not allowed; -90 to 90 are, ends left out")
+    craft, p, water = _setting(vehicle, "paper")
+    sequences = recursions(speed, angle_of_attack, sideslip, craft.actuators.mass_position.nominal, water, p)
+    found = [
+        trim_of(
+            (speed, angle_of_attack, sideslip, one.last.omega3, one.last.roll, one.last.pitch), one.controls, craft,
+            water, p, equations="paper", method="recursion", residual=one.residual, iterations=len(one.iterates),
+        )
+        for one in sequences
+        if one.converged
+    ]  # fmt: skip
+    if not found:
+        raise NoSolutionError(nearest_miss(sequences, velocity_from_flow(speed, angle_of_attack, sideslip), water, p))
+    return ranked(found, craft.actuators.mass_position.nominal), sequences
+
+
+def _setting(vehicle: Vehicle | str, equations: str) -> tuple[Vehicle, Parameters, Water]:
+    """The vehicle, its parameters in the wanted form, and the uniform water of its reference density."""
+    from glidercli.model.parameters import parameters, without_coupling
+    from glidercli.ocean.water import Water
     from glidercli.units import STANDARD_GRAVITY
     from glidercli.vehicle import load_vehicle
-    from glidercli.vehicle.controls import check_controls
 
     if equations not in ("full", "paper"):
         raise InputError("equations", f"{equations!r} is not allowed; full or paper")
     craft = vehicle if isinstance(vehicle, Vehicle) else load_vehicle(vehicle)
-    check_controls(craft, mass_position, mass_rotation, net_buoyancy)
     p = parameters(craft)
     p = without_coupling(p) if equations == "paper" else p
-    water = Water(p.rho_0, 0.0, p.T_0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), STANDARD_GRAVITY)
-    controls = Controls(mass_position, mass_rotation, net_buoyancy)
-    solution = solve_forward(controls, craft.actuators.mass_position.nominal, water, p)
-    speed, alpha, beta, omega3, phi, theta = (float(item) for item in solution.unknowns)
-    if mass_rotation == 0.0:
-        beta, omega3, phi = 0.0, 0.0, 0.0  # by symmetry; Newton leaves rounding there
-    growth = growth_rate(linearised(solution.unknowns, controls, water, p))
-    vertical, horizontal = speeds(speed, alpha, beta, phi, theta)
-    along = speed * math.cos(theta - alpha) if equations == "paper" else horizontal
-    outside = craft.actuators.outside(mass_position, mass_rotation, net_buoyancy)
-    fitted = craft.hydrodynamics.fitted_angle
-    warnings = [f"{name.replace('_', ' ')} is beyond the limits of {craft.name}" for name in outside]
-    warnings += [
-        f"{name} {math.degrees(angle):.1f} deg is beyond the fitted {math.degrees(fitted):g} deg"
-        for name, angle in (("angle of attack", alpha), ("sideslip", beta))
-        if abs(angle) > fitted
-    ]
-    if growth >= 0.0:
-        time = 1.0 / max(growth, 1e-9)
-        warnings.append(f"this trim is not stable: a deviation grows e-fold in {time:.3g} s, the flight ends elsewhere")
-    return Trim(
-        speed=speed,
-        angle_of_attack=alpha,
-        sideslip=beta,
-        yaw_rate=omega3,
-        roll=phi,
-        pitch=theta,
-        mass_position=mass_position,
-        mass_rotation=mass_rotation,
-        net_buoyancy=net_buoyancy,
-        turning_radius=along / omega3 if omega3 else math.inf,
-        vertical_speed=vertical,
-        horizontal_speed=horizontal,
-        lift_to_drag=lift_to_drag(alpha, p),
-        residual=solution.residual,
-        iterations=solution.iterations,
-        method="root",
-        equations=equations,
-        within_limits=not outside,
-        stable=growth < 0.0,
-        warnings=tuple(warnings),
-    )
+    return craft, p, Water(p.rho_0, 0.0, p.T_0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), STANDARD_GRAVITY)
 
 
 class _Room(ModuleType):

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from glidercli.errors import NoSolutionError
 from glidercli.frames import down_in_body
-from glidercli.model.equations import equilibrium
+from glidercli.model.equations import EQUATIONS, equilibrium
 from glidercli.model.hydrodynamics import velocity_from_flow
 from glidercli.model.parameters import Controls, Parameters
 from glidercli.ocean.water import Water
@@ -28,11 +28,6 @@ RELATIVE_TOLERANCE = 1e-11
 """Largest residual of a solution over the net weight that drives it."""
 ROUNDING = 1e-14
 """Residual in N or N m that rounding leaves in static moments of some N m; no solution is asked to be better."""
-
-EQUATIONS = (
-    "force along x (28)", "force along y (28)", "force along z (28)",
-    "roll moment (29)", "pitch moment (29)", "yaw moment (29)",
-)  # fmt: skip
 
 _STEP = 1e-6  # central differences: truncation 1e-12 and rounding 1e-10, both far below what Newton needs
 
