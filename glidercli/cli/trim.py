@@ -22,6 +22,7 @@ class Method(StrEnum):
 
     ROOT = "root"
     RECURSION = "recursion"
+    RECURSION_PRINTED = "recursion-printed"
 
 
 def trim(
@@ -46,7 +47,10 @@ def trim(
         ),
     ] = None,
     method: Annotated[
-        Method, typer.Option(help="root: from the three controls; recursion: from speed and flow angles.")
+        Method,
+        typer.Option(
+            help="root: from the controls; recursion: from speed and flow angles; recursion-printed: for the record."
+        ),
     ] = Method.ROOT,
     trace: Annotated[bool, typer.Option("--trace", help="Print every iterate of the recursion, eq. (44).")] = False,
     output: Annotated[list[Path] | None, output_option(".json .csv")] = None,
@@ -62,22 +66,33 @@ def trim(
 
     flow = {"speed": speed, "angle-of-attack": angle_of_attack, "sideslip": sideslip}
     controls = {"net-buoyancy": net_buoyancy, "mass-position": mass_position, "mass-rotation": mass_rotation}
-    by_recursion = method is Method.RECURSION
+    by_recursion = method is not Method.ROOT
     taken = _pins(method, *((flow, controls) if by_recursion else (controls, flow)))
     if by_recursion and equations is Equations.FULL:
-        raise UsageError("--method recursion solves the paper's equilibrium; --equations full contradicts it")
+        raise UsageError(f"--method {method.value} solves the paper's equilibrium; --equations full contradicts it")
     if trace and not by_recursion:
         raise UsageError("--trace prints the iterates of --method recursion; it needs that method")
     outputs = output or []
     if json and Path("-") in outputs:
         raise UsageError("-o - and --json both want stdout; leave one out")
     check_outputs(outputs, (".json", ".csv"), force)
-    sequences: list[Recursion] = []
+    traced: list[dict[str, Any]] = []
+
+    def look(sequences: list[Recursion]) -> None:
+        traced.extend(map(_sequence, sequences))
+        if trace and not json and Path("-") not in outputs:
+            print("\n\n".join(map(_trace, traced)), end="\n\n", flush=True)
+
     if by_recursion:
         from glidercli.trim import trims_by_recursion
 
-        found, sequences = trims_by_recursion(
-            vehicle, speed=taken[0], angle_of_attack=math.radians(taken[1]), sideslip=math.radians(taken[2])
+        found = trims_by_recursion(
+            vehicle,
+            speed=taken[0],
+            angle_of_attack=math.radians(taken[1]),
+            sideslip=math.radians(taken[2]),
+            printed=method is Method.RECURSION_PRINTED,
+            look=look,
         )
     else:
         from glidercli.trim import trim as solve
@@ -93,16 +108,14 @@ def trim(
     warn(found[0].warnings, quiet)
     document: dict[str, Any] = {"trims": [one.document() for one in found]}
     if trace:
-        document["trace"] = [_sequence(one) for one in sequences]
+        document["trace"] = traced
     for path in outputs:
         _write(document, path, vehicle, force)
     if json:
         print(json_text(document))
     elif Path("-") not in outputs:
-        parts = [_trace(one) for one in document.get("trace", [])]
         titles = [f"solution {i} of {len(found)}\n" if len(found) > 1 else "" for i in range(1, len(found) + 1)]
-        parts += [title + _table(one) for title, one in zip(titles, document["trims"], strict=True)]
-        print("\n\n".join(parts))
+        print("\n\n".join(title + _table(one) for title, one in zip(titles, document["trims"], strict=True)))
 
 
 def _pins(method: Method, wanted: dict[str, float | None], others: dict[str, float | None]) -> list[float]:
@@ -132,15 +145,14 @@ def _sequence(one: Recursion) -> dict[str, Any]:
         }
         for D in one.iterates
     ]
-    start = "sinking" if one.sinks > 0 else "rising"
-    return {"start": start, "root": one.root, "converged": one.converged, "residual": one.residual, "iterates": rows}
+    return {"start": one.start, "converged": one.converged, "residual": one.residual, "iterates": rows}
 
 
 def _trace(sequence: dict[str, Any]) -> str:
     """A sequence for people, a line each pass."""
     rows = sequence["iterates"]
     end = "a trim" if sequence["converged"] else "no trim"
-    lines = [f"{sequence['start']}, root {sequence['root']:+d}: {end}, residual {sequence['residual']:.1e} N or N m"]
+    lines = [f"{sequence['start']}: {end}, residual {sequence['residual']:.1e} N or N m"]
     lines.append("pass  " + "  ".join(f"{name:>18}" for name in rows[0]))
     lines += [f"{i:>4}  " + "  ".join(f"{v:>18.12f}" for v in row.values()) for i, row in enumerate(rows, start=1)]
     return "\n".join(lines)

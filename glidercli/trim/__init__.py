@@ -15,6 +15,8 @@ from glidercli.trim.result import Trim
 from glidercli.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from glidercli.model.parameters import Parameters
     from glidercli.ocean.water import Water
     from glidercli.trim.recursion import Recursion
@@ -65,14 +67,22 @@ def trim(
 
 
 def trims_by_recursion(
-    vehicle: Vehicle | str = "seawing", *, speed: float, angle_of_attack: float, sideslip: float
-) -> tuple[list[Trim], list[Recursion]]:
+    vehicle: Vehicle | str = "seawing",
+    *,
+    speed: float,
+    angle_of_attack: float,
+    sideslip: float,
+    printed: bool = False,
+    look: Callable[[list[Recursion]], None] | None = None,
+) -> list[Trim]:
     """The steady flights of a speed, angle of attack and sideslip, by the paper's recursion and its equations.
 
     vehicle : as for ``trim``. speed : m/s. angle_of_attack, sideslip : rad, within 90 deg.
+    printed : the recursion as it is printed, for the record; it finds hardly anything.
+    look : called with the sequences, whatever comes of them.
 
     Returns every trim found, those within the vehicle's limits first, the quadrants of Table 4 before others, stable
-    before unstable; and the sequences, for their iterates.
+    before unstable.
 
     Raises
     ------
@@ -82,6 +92,7 @@ def trims_by_recursion(
         No sequence reaches a trim; the message names the equation furthest from zero at the nearest point.
     """
     from glidercli.model.hydrodynamics import velocity_from_flow
+    from glidercli.trim.printed import printed_recursions
     from glidercli.trim.recursion import nearest_miss, recursions
     from glidercli.trim.result import ranked, trim_of
 
@@ -91,18 +102,22 @@ def trims_by_recursion(
         if not abs(angle) < 0.5 * math.pi:
             raise InputError(name, f"{math.degrees(angle):g} deg is not allowed; -90 to 90 are, ends left out")
     craft, p, water = _setting(vehicle, "paper")
-    sequences = recursions(speed, angle_of_attack, sideslip, craft.actuators.mass_position.nominal, water, p)
+    run, method = (printed_recursions, "recursion-printed") if printed else (recursions, "recursion")
+    sequences = run(speed, angle_of_attack, sideslip, craft.actuators.mass_position.nominal, water, p)
+    if look is not None:
+        look(sequences)
     found = [
         trim_of(
             (speed, angle_of_attack, sideslip, one.last.omega3, one.last.roll, one.last.pitch), one.controls, craft,
-            water, p, equations="paper", method="recursion", residual=one.residual, iterations=len(one.iterates),
+            water, p, equations="paper", method=method, residual=one.residual, iterations=len(one.iterates),
         )
         for one in sequences
         if one.converged
     ]  # fmt: skip
     if not found:
-        raise NoSolutionError(nearest_miss(sequences, velocity_from_flow(speed, angle_of_attack, sideslip), water, p))
-    return ranked(found, craft.actuators.mass_position.nominal), sequences
+        miss = nearest_miss(sequences, velocity_from_flow(speed, angle_of_attack, sideslip), water, p)
+        raise NoSolutionError(miss + ("; as printed the recursion finds hardly any: use --method recursion" * printed))
+    return ranked(found, craft.actuators.mass_position.nominal)
 
 
 def _setting(vehicle: Vehicle | str, equations: str) -> tuple[Vehicle, Parameters, Water]:

@@ -22,7 +22,7 @@ from glidercli.model.mass import first_moment, momentum
 from glidercli.model.parameters import Controls, Parameters
 from glidercli.ocean.water import Water
 
-__all__ = ["Iterate", "Recursion", "nearest_miss", "recursions"]
+__all__ = ["CONVERGED", "Iterate", "Recursion", "change", "ended", "nearest_miss", "recursions"]
 
 MOST_PASSES = 60
 CONVERGED = 1e-12
@@ -58,10 +58,9 @@ class Iterate(NamedTuple):
 
 
 class Recursion(NamedTuple):
-    """One sequence. sinks : 1 where net buoyancy sinks the vehicle, -1 where it lifts it. root : of the circle, +-1."""
+    """One sequence of (44). start : what sets it apart from the others."""
 
-    sinks: int
-    root: int
+    start: str
     iterates: tuple[Iterate, ...]
     converged: bool
     residual: float
@@ -76,6 +75,12 @@ class Recursion(NamedTuple):
     def controls(self) -> Controls:
         """The controls of the last iterate."""
         return Controls(self.last.rrx, self.last.gamma, self.last.mb)
+
+
+def change(a: Iterate, b: Iterate) -> float:
+    """Largest difference of two iterates: unit vector, kg, rad/s, rad, m."""
+    of_k_b = max(abs(x - y) for x, y in zip(a.k_b, b.k_b, strict=True))
+    return max(of_k_b, abs(a.mb - b.mb), abs(a.omega3 - b.omega3), abs(a.gamma - b.gamma), abs(a.rrx - b.rrx))
 
 
 def gravity_and_buoyancy(
@@ -147,16 +152,18 @@ def recursion(
         gamma, rrx, met = mass_placement(V, k_b, mb, omega3, c, root, water, p)
         before, D = D, Iterate(k_b, mb, omega3, gamma, rrx, met)
         iterates.append(D)
-        change = max(
-            *(abs(a - b) for a, b in zip(D.k_b, before.k_b, strict=True)),
-            abs(mb - before.mb), abs(omega3 - before.omega3), abs(gamma - before.gamma), abs(rrx - before.rrx),
-        )  # fmt: skip
-        if change < CONVERGED:
+        if change(before, D) < CONVERGED:
             converged = True
             break
-    six = equilibrium(V, D.k_b, D.omega3, Controls(D.rrx, D.gamma, D.mb), water, p)
-    residual = max(map(abs, six))
-    return Recursion(sinks, root, tuple(iterates), converged and D.met and residual < RESIDUAL, residual)
+    start = f"{'sinking' if sinks > 0 else 'rising'}, {'far' if root > 0 else 'near'} side of the circle"
+    return ended(start, iterates, converged and D.met, V, water, p)
+
+
+def ended(start: str, iterates: list[Iterate], stands: bool, V: Vector, water: Water, p: Parameters) -> Recursion:
+    """A sequence that is over, judged by the six equations; ``stands`` is whether it came to rest."""
+    D = iterates[-1]
+    residual = max(map(abs, equilibrium(V, D.k_b, D.omega3, Controls(D.rrx, D.gamma, D.mb), water, p)))
+    return Recursion(start, tuple(iterates), stands and residual < RESIDUAL, residual)
 
 
 def recursions(speed: float, alpha: float, beta: float, nominal: float, water: Water, p: Parameters) -> list[Recursion]:

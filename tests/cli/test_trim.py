@@ -150,3 +150,9 @@ def test_an_impossible_flow(glider: Run, name: str, value: str) -> None:
 
 def test_a_flow_that_no_mass_can_hold(glider: Run) -> None:
     one_line_error(glider("trim", *FLOW[:-1], "40"), "furthest from zero", "roll moment (29)")
+
+
+def test_the_printed_recursion_says_that_it_fails(glider: Run) -> None:
+    one_line_error(
+        glider("trim", "--method", "recursion-printed", *FLOW[2:]), "furthest from zero", "--method recursion"
+    )

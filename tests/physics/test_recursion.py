@@ -17,7 +17,7 @@ from glidercli.model.mass import first_moment, momentum
 from glidercli.model.parameters import Controls, without_coupling
 from glidercli.ocean.water import Water
 from glidercli.trim import Trim, trims_by_recursion
-from glidercli.trim.recursion import Iterate, gravity_and_buoyancy, mass_placement, turning_rate
+from glidercli.trim.recursion import Iterate, Recursion, gravity_and_buoyancy, mass_placement, turning_rate
 
 WATER = Water(1025.0, 0.0, 15.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 9.81)
 V = velocity_from_flow(0.49, math.radians(1.27), math.radians(-1.28))
@@ -42,7 +42,7 @@ def test_every_point_of_the_four_quadrants_is_recovered(quadrant: tuple[int, int
             net_buoyancy=way * mb, mass_position=0.4016 + way * offset, mass_rotation=math.radians(turn * degrees),
             equations="paper",
         )  # fmt: skip
-        found, _ = trims_by_recursion(speed=point.speed, angle_of_attack=point.angle_of_attack, sideslip=point.sideslip)
+        found = trims_by_recursion(speed=point.speed, angle_of_attack=point.angle_of_attack, sideslip=point.sideslip)
         assert all(one.residual < 1e-9 for one in found)  # none is silently wrong
         best = min(found, key=lambda one: distance(one, point))
         assert distance(best, point) < 1e-6, (degrees, mb, offset)  # the issue's figure
@@ -84,7 +84,7 @@ def test_each_step_solves_its_own_equation(p: Parameters) -> None:
 
 def test_a_straight_glide_by_both_routes() -> None:
     glide = glidercli.trim(net_buoyancy=0.3, mass_position=0.4216, mass_rotation=0.0, equations="paper")
-    found, _ = trims_by_recursion(speed=glide.speed, angle_of_attack=glide.angle_of_attack, sideslip=0.0)
+    found = trims_by_recursion(speed=glide.speed, angle_of_attack=glide.angle_of_attack, sideslip=0.0)
     assert found[0].yaw_rate == 0.0
     assert distance(found[0], glide) < 1e-9  # Newton stops at 1e-11 of the weight
     assert found[0].pitch == pytest.approx(glide.pitch, abs=1e-9)
@@ -92,7 +92,10 @@ def test_a_straight_glide_by_both_routes() -> None:
 
 def test_the_twin_is_inverted(p: Parameters) -> None:
     """(k_b, omega_3, m_b) to their negatives leaves (28) and (39) as they are: two families, one of them on its back."""
-    found, sequences = trims_by_recursion(speed=0.49, angle_of_attack=math.radians(1.27), sideslip=math.radians(-1.28))
+    sequences: list[Recursion] = []
+    found = trims_by_recursion(
+        speed=0.49, angle_of_attack=math.radians(1.27), sideslip=math.radians(-1.28), look=sequences.extend
+    )
     assert len(found) == 4
     assert {math.copysign(1.0, one.net_buoyancy) for one in found} == {1.0, -1.0}
     for one in sequences:
