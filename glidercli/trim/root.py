@@ -84,9 +84,12 @@ def newton(start: Array, c: Controls, water: Water, p: Parameters, limit: int = 
 
 
 def _glides(x: Array) -> bool:
-    """Whether a solution is an ordinary one: flow from ahead, pitch short of the vertical, roll not far past 90 deg."""
+    """Whether a solution is an ordinary one: flow from ahead, pitch short of the vertical, no flight on the back.
+
+    Strong climbs with the mass turned far roll past 90 deg, and the simulator settles there; 135 deg leaves them in.
+    """
     _, alpha, beta, _, phi, theta = x
-    return bool(abs(alpha) < 0.6 and abs(beta) < 0.6 and abs(phi) < math.pi / 2 * 1.2 and abs(theta) < math.pi / 2)
+    return bool(abs(alpha) < 0.6 and abs(beta) < 0.6 and abs(phi) < 0.75 * math.pi and abs(theta) < math.pi / 2)
 
 
 def follow(x: Array, start: Controls, goal: Controls, water: Water, p: Parameters) -> Solution:

@@ -172,3 +172,13 @@ def test_what_is_told_of_a_flight_does_not_depend_on_its_samples() -> None:
     way = float(np.hypot(np.diff(north), np.diff(east)).sum())
     assert fine.distance == pytest.approx(way, rel=1e-5)  # chords of 0.1 s on turns of some metres
     assert any("angle of attack was beyond" in line for line in coarse.warnings)
+
+
+def test_a_climb_that_rolls_past_90_deg_is_a_trim_where_the_simulator_settles() -> None:
+    controls = {"net_buoyancy": -0.5, "mass_position": 0.3966, "mass_rotation": math.radians(80.0)}
+    trim = glidercli.trim(**controls).document()
+    flown = glidercli.simulate(**controls, start_depth=10000.0, duration=8000.0, every=1000.0).document()["final"]
+    assert trim["stable"]
+    assert abs(trim["roll_deg"]) > 100.0
+    for name in ("roll_deg", "pitch_deg", "sideslip_deg"):
+        assert flown[name] == pytest.approx(trim[name], rel=1e-6), name  # as for the worked example above
