@@ -39,8 +39,9 @@ def sources_hash(package: Path | None = None) -> str:
     return digest.hexdigest()[:16]
 
 
-def _cache_folder() -> Path | None:
-    """Where compiled code is kept, or None where it cannot be."""
+@functools.cache
+def cache_folder() -> Path | None:
+    """Where this version of the sources keeps what it worked out once, or None where that cannot be written."""
     base = os.environ.get("GLIDER_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
     folder = Path(base) / "glidercli" / f"numba-{sources_hash()}"
     try:
@@ -56,7 +57,7 @@ def _cache_folder() -> Path | None:
 @functools.cache
 def _numba() -> tuple[Any, bool]:
     """numba, with every marked function made known to it, and whether its cache may be used."""
-    folder = _cache_folder()
+    folder = cache_folder()
     if folder is not None:
         os.environ["NUMBA_CACHE_DIR"] = str(folder)
     import numba
@@ -76,4 +77,22 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     All modules with kernels that the entry point reaches must have been imported, which its own imports see to.
     """
     numba, cached = _numba()
-    return numba.njit(cache=cached)(function)  # type: ignore[no-any-return]
+    return numba.njit(cache=cached, nogil=True)(function)  # type: ignore[no-any-return]
+
+
+_WARM = 100
+"""Calls of a function in one process after which compiling it pays: it costs seconds once, and saves milliseconds."""
+
+
+@functools.cache
+def warmed(function: Function) -> Function:
+    """The function, plain for its first calls in a process and compiled from then on; its answers are the same."""
+    calls = 0
+
+    @functools.wraps(function)
+    def either(*args: Any) -> Any:
+        nonlocal calls
+        calls += 1
+        return function(*args) if calls <= _WARM else compiled(function)(*args)
+
+    return either  # type: ignore[return-value]

@@ -8,7 +8,7 @@ from glidercli.frames import Matrix, Vector, dot, times
 from glidercli.kernel import kernel
 from glidercli.model.parameters import Parameters
 
-__all__ = ["flow_angles", "forces_and_moments", "velocity_from_flow"]
+__all__ = ["flow_angles", "forces_and_moments", "in_flow_frame", "rotation_body_flow", "velocity_from_flow"]
 
 
 @kernel
@@ -42,16 +42,15 @@ def rotation_body_flow(alpha: float, beta: float) -> Matrix:
 
 
 @kernel
-def forces_and_moments(V: Vector, Omega: Vector, dense: float, p: Parameters) -> tuple[Vector, Vector]:
-    """F = R_BC (-D, SF, -L), N, and T = R_BC (T1, T2, T3), N m, in the body frame: eqs (20), (22).
-
-    V : velocity through water, m/s. Omega : body rates (p, q, r), rad/s. dense : rho / rho_ref.
+def in_flow_frame(
+    speed: float, alpha: float, beta: float, Omega: Vector, dense: float, p: Parameters
+) -> tuple[Vector, Vector]:
+    """(-D, SF, -L), N, and (T1, T2, T3), N m, in the flow frame: eq. (20).
 
     D  = (KD0 + KD alpha^2) V^2      T1 = (KMR beta + Kp p) V^2
     SF = Kbeta beta V^2              T2 = (KM0 + KM alpha + Kq q) V^2
     L  = (KL0 + Kalpha alpha) V^2    T3 = (KMY beta + Kr r) V^2
     """
-    speed, alpha, beta = flow_angles(V)
     V2 = dense * speed * speed
     D = (p.KD0 + p.KD * alpha * alpha) * V2
     SF = p.Kbeta * beta * V2
@@ -59,5 +58,16 @@ def forces_and_moments(V: Vector, Omega: Vector, dense: float, p: Parameters) ->
     T1 = (p.KMR * beta + p.Kp * Omega[0]) * V2
     T2 = (p.KM0 + p.KM * alpha + p.Kq * Omega[1]) * V2
     T3 = (p.KMY * beta + p.Kr * Omega[2]) * V2
+    return (-D, SF, -L), (T1, T2, T3)
+
+
+@kernel
+def forces_and_moments(V: Vector, Omega: Vector, dense: float, p: Parameters) -> tuple[Vector, Vector]:
+    """F = R_BC (-D, SF, -L), N, and T = R_BC (T1, T2, T3), N m, in the body frame: eq. (22).
+
+    V : velocity through water, m/s. Omega : body rates (p, q, r), rad/s. dense : rho / rho_ref.
+    """
+    speed, alpha, beta = flow_angles(V)
+    f, t = in_flow_frame(speed, alpha, beta, Omega, dense, p)
     RBC = rotation_body_flow(alpha, beta)
-    return times(RBC, (-D, SF, -L)), times(RBC, (T1, T2, T3))
+    return times(RBC, f), times(RBC, t)

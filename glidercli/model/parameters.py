@@ -7,7 +7,7 @@ from typing import NamedTuple
 from glidercli.frames import Vector
 from glidercli.vehicle.vehicle import Vehicle
 
-__all__ = ["Controls", "Parameters", "parameters", "without_coupling"]
+__all__ = ["Controls", "Parameters", "parameters", "symmetric", "without_coupling"]
 
 
 class Parameters(NamedTuple):
@@ -101,3 +101,8 @@ def parameters(vehicle: Vehicle) -> Parameters:
 def without_coupling(p: Parameters) -> Parameters:
     """The parameters with C_A = 0, as the paper writes the equilibria, eqs (30), (31)."""
     return p._replace(Nv=0.0, Mw=0.0)
+
+
+def symmetric(p: Parameters) -> bool:
+    """Whether port and starboard are alike, so that a flight mirrored is a flight."""
+    return p.rs[1] == 0.0 and p.rb[1] == 0.0

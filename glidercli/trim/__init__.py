@@ -5,7 +5,6 @@ The room bears the name of its function: ``glidercli.trim(...)`` calls ``trim`` 
 
 from __future__ import annotations
 
-import math
 import sys
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -21,49 +20,65 @@ if TYPE_CHECKING:
     from glidercli.ocean.water import Water
     from glidercli.trim.recursion import Recursion
 
-__all__ = ["Trim", "trim", "trims_by_recursion"]
+__all__ = ["Trim", "trim", "trims", "trims_by_recursion"]
 
 
-def trim(
+def trim(vehicle: Vehicle | str = "seawing", *, equations: str = "full", **pins: float) -> Trim:
+    """The steady flight of three pinned quantities: the first of ``trims``, which see."""
+    return trims(vehicle, equations=equations, **pins)[0]
+
+
+def trims(
     vehicle: Vehicle | str = "seawing",
     *,
-    net_buoyancy: float,
-    mass_position: float,
-    mass_rotation: float,
     equations: str = "full",
-) -> Trim:
-    """The steady flight of three controls, in uniform water of the vehicle's reference density, g = 9.81 m/s2.
+    speed: float | None = None,
+    angle_of_attack: float | None = None,
+    sideslip: float | None = None,
+    yaw_rate: float | None = None,
+    roll: float | None = None,
+    pitch: float | None = None,
+    mass_position: float | None = None,
+    mass_rotation: float | None = None,
+    net_buoyancy: float | None = None,
+    turning_radius: float | None = None,
+) -> list[Trim]:
+    """Every steady flight with three pinned quantities, in uniform water of the reference density, g = 9.81 m/s2.
+
+    Those within the vehicle's limits come first, the quadrants of Table 4 before others, stable before unstable.
 
     Parameters
     ----------
     vehicle : a Vehicle, the name of a shipped one, or a file.
-    net_buoyancy : kg, sinking positive. mass_position : m, forward. mass_rotation : rad.
     equations : "full" keeps C_A and takes the turning radius as horizontal speed over yaw rate; "paper" drops C_A from
         (30), (31) and takes the radius by eq. (33), V cos(theta - alpha) / omega_3.
+    speed : m/s, through water. angle_of_attack, sideslip, roll, pitch : rad. yaw_rate : rad/s about the vertical, to
+        starboard positive; 0 asks for a straight glide. mass_position : m, forward. mass_rotation : rad. net_buoyancy :
+        kg, sinking positive. turning_radius : m, signed as the yaw rate.
 
     Raises
     ------
+    UsageError
+        Not three pins, or pins that depend on or contradict one another.
     InputError
-        A control is not finite, the net buoyancy exceeds the vehicle's weight, or ``equations`` is unknown.
+        A pin that no vehicle can have, or ``equations`` is unknown.
     NoSolutionError
-        There is no such flight, or none was found: the message says what fails.
+        There is no such flight, or none was found: the message says what fails, where.
     """
-    from glidercli.model.parameters import Controls
-    from glidercli.trim.result import trim_of
-    from glidercli.trim.root import solve_forward
-    from glidercli.vehicle.controls import check_controls
+    from glidercli.model.parameters import symmetric
+    from glidercli.trim.pins import question
+    from glidercli.trim.result import answered
+    from glidercli.trim.root import solutions
 
+    given = {
+        "speed": speed, "angle_of_attack": angle_of_attack, "sideslip": sideslip, "yaw_rate": yaw_rate, "roll": roll,
+        "pitch": pitch, "mass_position": mass_position, "mass_rotation": mass_rotation, "net_buoyancy": net_buoyancy,
+        "turning_radius": turning_radius,
+    }  # fmt: skip
     craft, p, water = _setting(vehicle, equations)
-    check_controls(craft, mass_position, mass_rotation, net_buoyancy)
-    controls = Controls(mass_position, mass_rotation, net_buoyancy)
-    found = solve_forward(controls, craft.actuators.mass_position.nominal, water, p)
-    x = [float(item) for item in found.unknowns]
-    if mass_rotation == 0.0:
-        x[2] = x[3] = x[4] = 0.0  # beta, omega_3, phi: by symmetry; Newton leaves rounding there
-    return trim_of(
-        x, controls, craft, water, p,
-        equations=equations, method="root", residual=found.residual, iterations=found.iterations,
-    )  # fmt: skip
+    asked = question(given, craft, symmetric(p))
+    found = solutions(asked, craft, equations == "paper", water, p)
+    return answered(found, craft, water, p, equations=equations, method="root")
 
 
 def trims_by_recursion(
@@ -87,37 +102,36 @@ def trims_by_recursion(
     Raises
     ------
     InputError
-        The speed is not positive, or an angle is not within 90 deg.
+        A speed or an angle that no vehicle can have.
     NoSolutionError
-        No sequence reaches a trim; the message names the equation furthest from zero at the nearest point.
+        Stalled flight is asked for, or no sequence reaches a trim; the message names the equation furthest from zero at
+        the nearest point.
     """
     from glidercli.model.hydrodynamics import velocity_from_flow
+    from glidercli.trim.pins import allowed
     from glidercli.trim.printed import printed_recursions
     from glidercli.trim.recursion import nearest_miss, recursions
-    from glidercli.trim.result import ranked, trim_of
+    from glidercli.trim.result import answered
 
-    if not (math.isfinite(speed) and speed > 0.0):
-        raise InputError("speed", f"{speed} m/s is not allowed; a finite number greater than 0 is needed")
-    for name, angle in (("angle of attack", angle_of_attack), ("sideslip", sideslip)):
-        if not abs(angle) < 0.5 * math.pi:
-            raise InputError(name, f"{math.degrees(angle):g} deg is not allowed; -90 to 90 are, ends left out")
     craft, p, water = _setting(vehicle, "paper")
+    for name, value in (("speed", speed), ("angle_of_attack", angle_of_attack), ("sideslip", sideslip)):
+        allowed(name, value, craft)
     run, method = (printed_recursions, "recursion-printed") if printed else (recursions, "recursion")
     sequences = run(speed, angle_of_attack, sideslip, craft.actuators.mass_position.nominal, water, p)
     if look is not None:
         look(sequences)
     found = [
-        trim_of(
-            (speed, angle_of_attack, sideslip, one.last.omega3, one.last.roll, one.last.pitch), one.controls, craft,
-            water, p, equations="paper", method=method, residual=one.residual, iterations=len(one.iterates),
+        (
+            (speed, angle_of_attack, sideslip, one.last.omega3, one.last.roll, one.last.pitch, *one.controls[:3]),
+            len(one.iterates),
         )
         for one in sequences
         if one.converged
-    ]  # fmt: skip
+    ]
     if not found:
         miss = nearest_miss(sequences, velocity_from_flow(speed, angle_of_attack, sideslip), water, p)
         raise NoSolutionError(miss + ("; as printed the recursion finds hardly any: use --method recursion" * printed))
-    return ranked(found, craft.actuators.mass_position.nominal)
+    return answered(found, craft, water, p, equations="paper", method=method)
 
 
 def _setting(vehicle: Vehicle | str, equations: str) -> tuple[Vehicle, Parameters, Water]:

@@ -8,15 +8,22 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from glidercli.errors import NoSolutionError
 from glidercli.frames import Vector, dot, down_in_body
 from glidercli.model.hydrodynamics import velocity_from_flow
-from glidercli.model.parameters import Controls, Parameters
+from glidercli.model.parameters import Parameters, symmetric
 from glidercli.ocean.water import Water
-from glidercli.trim.stability import growth_rate, linearised
+from glidercli.trim.pins import STALL_RATIO
+from glidercli.trim.stability import Mode, growth_rate, linearised, modes
+from glidercli.trim.steady import Unknowns, radius_speed, six
 from glidercli.vehicle.vehicle import Vehicle
 
-__all__ = ["Trim", "ranked", "trim_of"]
+__all__ = ["Trim", "answered", "in_table_4", "no_glide", "ranked", "trim_of"]
+
+VERTICAL = math.radians(1.0)
+"""A path so near to the vertical is called vertical; its horizontal speed is below 2 % of the whole."""
 
 _DEG = 180.0 / math.pi
 
@@ -26,7 +33,7 @@ class Trim:
     """A steady flight: a straight glide or a spiral about the vertical. SI and radians.
 
     The first nine and the turning radius are the paper's ten parameters (section 4). residual is the largest of the
-    six equations (28), (29), N or N m. stable tells whether small deviations decay; None where it was not computed.
+    six equations (28), (29), N or N m.
     """
 
     speed: float
@@ -50,8 +57,20 @@ class Trim:
     method: str
     equations: str
     within_limits: bool
-    stable: bool | None = None
+    growth_rate: float
+    """Rate at which the worst small deviation grows, 1/s; negative where all decay."""
+    linear_model: NDArray[np.float64] = dataclasses.field(repr=False, compare=False)
+    """(8, 8), of the deviations from this trim: stability.py."""
     warnings: tuple[str, ...] = ()
+
+    @property
+    def stable(self) -> bool:
+        """Whether small deviations decay."""
+        return self.growth_rate < 0.0
+
+    def modes(self) -> list[Mode]:
+        """The modes in which small deviations decay or grow, slowest decay first."""
+        return modes(self.linear_model)
 
     @property
     def glide_angle(self) -> float:
@@ -85,26 +104,55 @@ class Trim:
         }
 
 
-def trim_of(
-    x: Sequence[float], c: Controls, craft: Vehicle, water: Water, p: Parameters, *, equations: str, method: str,
-    residual: float, iterations: int,
-) -> Trim:  # fmt: skip
-    """The trim of a solution x = (V, alpha, beta, omega_3, phi, theta), SI and rad, with what follows from it."""
-    speed, alpha, beta, omega3, phi, theta = (float(item) for item in x)
-    growth = growth_rate(linearised(np.array(x), c, water, p))
-    vertical, horizontal = speeds(speed, alpha, beta, phi, theta)
-    along = speed * math.cos(theta - alpha) if equations == "paper" else horizontal
-    outside = craft.actuators.outside(c.rrx, c.gamma, c.mb)
+def answered(
+    found: Sequence[tuple[Unknowns, int]], craft: Vehicle, water: Water, p: Parameters, *, equations: str, method: str
+) -> list[Trim]:
+    """Solutions x, each with its iterations, as trims: each once, ranked, without flights that are no glides.
+
+    Raises NoSolutionError where nothing but vertical or stalled flights is left.
+    """
+    kept, refused = [], []
+    for x, iterations in found:
+        why = no_glide(x, craft)
+        if why:
+            refused.append(why)
+        else:
+            kept.append(trim_of(x, craft, water, p, equations=equations, method=method, iterations=iterations))
+    if not kept:
+        raise NoSolutionError(refused[0])
+    return ranked(kept, craft.actuators.mass_position.nominal)
+
+
+def no_glide(x: Unknowns, craft: Vehicle) -> str:
+    """Why a solution x is no glide: stalled or vertical; empty where it is one."""
     fitted = craft.hydrodynamics.fitted_angle
-    warnings = [f"{name.replace('_', ' ')} is beyond the limits of {craft.name}" for name in outside]
-    warnings += [
-        f"{name} {math.degrees(angle):.1f} deg is beyond the fitted {math.degrees(fitted):g} deg"
-        for name, angle in (("angle of attack", alpha), ("sideslip", beta))
-        if abs(angle) > fitted
-    ]
-    if growth >= 0.0:
-        time = 1.0 / max(growth, 1e-9)
-        warnings.append(f"this trim is not stable: a deviation grows e-fold in {time:.3g} s, the flight ends elsewhere")
+    if abs(x[1]) > STALL_RATIO * fitted:
+        return (
+            f"stalled flight: the only one found has an angle of attack of {x[1] * _DEG:.1f} deg, beyond "
+            f"{STALL_RATIO * fitted * _DEG:g} deg, {STALL_RATIO:g} times the fitted range; eq. (20) knows no stall and "
+            "says nothing there"
+        )
+    _, horizontal = speeds(*x[:3], x[4], x[5])
+    if horizontal < math.sin(VERTICAL) * x[0]:
+        return (
+            f"vertical flight: the only one found has its path within {VERTICAL * _DEG:g} deg of the vertical, where "
+            "heading and turning radius lose their meaning"
+        )
+    return ""
+
+
+def trim_of(
+    x: Unknowns, craft: Vehicle, water: Water, p: Parameters, *, equations: str, method: str, iterations: int
+) -> Trim:
+    """The trim of a solution x, SI and rad, with what follows from it."""
+    if x[7] == 0.0 and symmetric(p) and max(abs(x[2]), abs(x[3]), abs(x[4])) < 1e-9:
+        x = (x[0], x[1], 0.0, 0.0, 0.0, x[5], x[6], 0.0, x[8])  # by symmetry; Newton leaves rounding there
+    speed, alpha, beta, omega3, phi, theta, rrx, gamma, mb = x
+    linear = linearised(x, water, p)
+    growth = growth_rate(linear)
+    vertical, horizontal = speeds(speed, alpha, beta, phi, theta)
+    along = radius_speed(x, equations == "paper")
+    outside = craft.actuators.outside(rrx, gamma, mb)
     return Trim(
         speed=speed,
         angle_of_attack=alpha,
@@ -112,21 +160,37 @@ def trim_of(
         yaw_rate=omega3,
         roll=phi,
         pitch=theta,
-        mass_position=c.rrx,
-        mass_rotation=c.gamma,
-        net_buoyancy=c.mb,
+        mass_position=rrx,
+        mass_rotation=gamma,
+        net_buoyancy=mb,
         turning_radius=along / omega3 if omega3 else math.inf,
         vertical_speed=vertical,
         horizontal_speed=horizontal,
         lift_to_drag=lift_to_drag(alpha, p),
-        residual=residual,
+        residual=max(map(abs, six(x, water, p))),
         iterations=iterations,
         method=method,
         equations=equations,
         within_limits=not outside,
-        stable=growth < 0.0,
-        warnings=tuple(warnings),
+        growth_rate=growth,
+        linear_model=linear,
+        warnings=tuple(_warnings(alpha, beta, growth, outside, craft)),
     )
+
+
+def _warnings(alpha: float, beta: float, growth: float, outside: Sequence[str], craft: Vehicle) -> list[str]:
+    """What a reader of a trim must know besides its numbers."""
+    fitted = craft.hydrodynamics.fitted_angle
+    told = [f"{name.replace('_', ' ')} is beyond the limits of {craft.name}" for name in outside]
+    told += [
+        f"{name} {angle * _DEG:.1f} deg is beyond the fitted {fitted * _DEG:g} deg"
+        for name, angle in (("angle of attack", alpha), ("sideslip", beta))
+        if abs(angle) > fitted
+    ]
+    if growth >= 0.0:
+        time = 1.0 / max(growth, 1e-9)
+        told.append(f"this trim is not stable: a deviation grows e-fold in {time:.3g} s, the flight ends elsewhere")
+    return told
 
 
 def speeds(speed: float, alpha: float, beta: float, roll: float, pitch: float) -> tuple[float, float]:
