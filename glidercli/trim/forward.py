@@ -63,9 +63,9 @@ def straight_first(
 
 
 @kernel
-def mirrored_start(x: Unknowns, roll: float, speed: float) -> Unknowns:
-    """A start on the other side of a flight x: rolled to ``roll``, rad, at a share of its speed, the same controls."""
-    return (speed * x[0], -0.2 * x[1], -x[2], -x[3], roll, x[5], x[6], x[7], x[8])
+def mirrored_start(x: Unknowns, roll: float, share: float) -> Unknowns:
+    """A start on the other side of a flight x: rolled to ``roll``, rad, at a share of its speed and less of its pitch."""
+    return (share * x[0], -0.2 * x[1], -x[2], -x[3], roll, share**4 * x[5], x[6], x[7], x[8])
 
 
 @kernel
@@ -86,8 +86,8 @@ def from_controls(
         found[0], iterations[0], count = np.array(x), used, 1
         if abs(x[4]) > FAR_ROLL:
             for roll in (-x[4], -math.copysign(1.2, x[4]), -math.copysign(1.75, x[4]), -math.copysign(2.0, x[4])):
-                for speed in (1.0, 0.7):
-                    y, more, there = newton(mirrored_start(x, roll, speed), CONTROLS, (rrx, gamma, mb), False, water, p)
+                for share in (1.0, 0.65):
+                    y, more, there = newton(mirrored_start(x, roll, share), CONTROLS, (rrx, gamma, mb), False, water, p)
                     if there and ordinary(y) and count < MOST_FOUND and is_new(y, found, count):
                         found[count], iterations[count], count = np.array(y), more, count + 1
     return found, iterations, count, x

@@ -231,6 +231,13 @@ def in_table_4(t: Trim, nominal: float) -> bool:
 
 
 def _same(a: Trim, b: Trim) -> bool:
-    """Whether two solutions are one: controls equal to a micrometre, a microradian and a milligram."""
-    pairs = ((a.mass_position, b.mass_position), (a.mass_rotation, b.mass_rotation), (a.net_buoyancy, b.net_buoyancy))
-    return all(abs(x - y) < 1e-6 for x, y in pairs)
+    """Whether two solutions are one: speeds, angles and controls equal to 1e-6 in SI and rad."""
+    return all(abs(x - y) < 1e-6 for x, y in zip(_unknowns(a), _unknowns(b), strict=True))
+
+
+def _unknowns(t: Trim) -> tuple[float, ...]:
+    """The nine unknowns of a trim."""
+    return (
+        t.speed, t.angle_of_attack, t.sideslip, t.yaw_rate, t.roll, t.pitch, t.mass_position, t.mass_rotation,
+        t.net_buoyancy,
+    )  # fmt: skip
