@@ -1,4 +1,4 @@
-"""``glider trim``: the steady flight of three controls, or the controls of a steady flight."""
+"""``glider trim``: steady flights from any three of their ten quantities, sweeps of them, and the polar."""
 
 from __future__ import annotations
 
@@ -12,9 +12,14 @@ import typer
 from glidercli.cli.options import Debug, Equations, Force, Json, Quiet, Vehicle, output_option
 
 if TYPE_CHECKING:
+    from glidercli.trim import Trim
+    from glidercli.trim.output import Answer
     from glidercli.trim.recursion import Recursion
 
+    _Told = tuple[Answer, list[str], str]  # what is kept, what is warned of, what a terminal shows
+
 _PINS = "Pins: three that determine a trim"
+_SHOWN = 200  # rows of a sweep that a terminal is asked to show; a file takes all
 
 
 class Method(StrEnum):
@@ -25,18 +30,43 @@ class Method(StrEnum):
     RECURSION_PRINTED = "recursion-printed"
 
 
+def _pin(text: str) -> Any:
+    """The option of a pin."""
+    return typer.Option(help=text, rich_help_panel=_PINS, show_default=False)
+
+
 def trim(
-    speed: Annotated[float | None, typer.Option(help="Speed through water, m/s.", rich_help_panel=_PINS)] = None,
-    angle_of_attack: Annotated[float | None, typer.Option(help="Angle of attack, deg.", rich_help_panel=_PINS)] = None,
-    sideslip: Annotated[float | None, typer.Option(help="Sideslip, deg.", rich_help_panel=_PINS)] = None,
-    net_buoyancy: Annotated[
-        float | None, typer.Option(help="Net buoyancy, kg, sinking positive.", rich_help_panel=_PINS)
+    speed: Annotated[float | None, _pin("Speed through water, m/s.")] = None,
+    angle_of_attack: Annotated[float | None, _pin("Angle of attack, deg.")] = None,
+    sideslip: Annotated[float | None, _pin("Sideslip, deg.")] = None,
+    yaw_rate: Annotated[
+        float | None, _pin("Turning rate about the vertical, deg/s, to starboard; 0 asks for a straight glide.")
     ] = None,
-    mass_position: Annotated[
-        float | None, typer.Option(help="Position of the movable mass, m, forward.", rich_help_panel=_PINS)
+    roll: Annotated[float | None, _pin("Roll, deg, starboard down.")] = None,
+    pitch: Annotated[float | None, _pin("Pitch, deg, nose up.")] = None,
+    mass_position: Annotated[float | None, _pin("Position of the movable mass, m, forward.")] = None,
+    mass_rotation: Annotated[float | None, _pin("Rotation of the movable mass, deg.")] = None,
+    net_buoyancy: Annotated[float | None, _pin("Net buoyancy, kg, sinking positive.")] = None,
+    turning_radius: Annotated[float | None, _pin("Turning radius, m, to starboard; inf is straight.")] = None,
+    sweep: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=START:STOP:STEP",
+            help="Sweep a pin in the unit of its option; may repeat. One makes curves, two a map.",
+            show_default=False,
+        ),
     ] = None,
-    mass_rotation: Annotated[
-        float | None, typer.Option(help="Rotation of the movable mass, deg.", rich_help_panel=_PINS)
+    polar: Annotated[
+        bool, typer.Option("--polar", help="Every straight glide, the best, fastest and cheapest of them.")
+    ] = False,
+    current: Annotated[
+        float | None, typer.Option(help="For --polar: a current against the vehicle, m/s.", show_default=False)
+    ] = None,
+    hotel_power: Annotated[
+        float | None, typer.Option(help="For --polar: power besides the pump's, W.", show_default=False)
+    ] = None,
+    pump_efficiency: Annotated[
+        float | None, typer.Option(help="For --polar: of the pump, 0 to 1.", show_default=False)
     ] = None,
     vehicle: Vehicle = "seawing",
     equations: Annotated[
@@ -49,91 +79,178 @@ def trim(
     method: Annotated[
         Method,
         typer.Option(
-            help="root: from the controls; recursion: from speed and flow angles; recursion-printed: for the record."
+            help="root: any three pins; recursion: from speed and flow angles; recursion-printed: for the record."
         ),
     ] = Method.ROOT,
+    linearize: Annotated[
+        bool, typer.Option("--linearize", help="The modes of small deviations: eigenvalues, damping, time to half.")
+    ] = False,
     trace: Annotated[bool, typer.Option("--trace", help="Print every iterate of the recursion, eq. (44).")] = False,
-    output: Annotated[list[Path] | None, output_option(".json .csv")] = None,
+    output: Annotated[list[Path] | None, output_option(".json .csv .parquet .png .svg .pdf")] = None,
     force: Force = False,
     json: Json = False,
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> None:
-    """Steady flight: a straight glide or a spiral, from its controls, or its controls from the flight."""
-    from glidercli.cli.printing import json_text, warn
+    """Steady flight: a straight glide or a spiral, from any three of the ten quantities that describe it."""
+    from glidercli.cli.printing import json_text, say, warn
     from glidercli.errors import UsageError
-    from glidercli.files import check_outputs
+    from glidercli.files import check_not_inputs, check_outputs
+    from glidercli.provenance import provenance
+    from glidercli.trim.output import SUFFIXES, write
+    from glidercli.trim.pins import QUANTITIES
 
-    flow = {"speed": speed, "angle-of-attack": angle_of_attack, "sideslip": sideslip}
-    controls = {"net-buoyancy": net_buoyancy, "mass-position": mass_position, "mass-rotation": mass_rotation}
+    pins: dict[str, float] = {
+        name: value * QUANTITIES[name].factor
+        for name, value in {
+            "speed": speed, "angle_of_attack": angle_of_attack, "sideslip": sideslip, "yaw_rate": yaw_rate,
+            "roll": roll, "pitch": pitch, "mass_position": mass_position, "mass_rotation": mass_rotation,
+            "net_buoyancy": net_buoyancy, "turning_radius": turning_radius,
+        }.items()
+        if value is not None
+    }  # fmt: skip
+    journey = {"current": current, "hotel_power": hotel_power, "pump_efficiency": pump_efficiency}
     by_recursion = method is not Method.ROOT
-    taken = _pins(method, *((flow, controls) if by_recursion else (controls, flow)))
-    if by_recursion and equations is Equations.FULL:
+    form = equations or (Equations.PAPER if by_recursion else Equations.FULL)
+    if by_recursion and form is Equations.FULL:
         raise UsageError(f"--method {method.value} solves the paper's equilibrium; --equations full contradicts it")
     if trace and not by_recursion:
         raise UsageError("--trace prints the iterates of --method recursion; it needs that method")
+    if sum((by_recursion, bool(sweep), polar)) > 1:
+        raise UsageError("--method recursion, --sweep and --polar are three questions; ask one at a time")
+    alone = [f"--{name.replace('_', '-')}" for name, value in journey.items() if value is not None]
+    if alone and not polar:
+        raise UsageError(f"{alone[0]} is part of --polar; it needs that option")
     outputs = output or []
-    if json and Path("-") in outputs:
+    stdout = Path("-") in outputs
+    if json and stdout:
         raise UsageError("-o - and --json both want stdout; leave one out")
-    check_outputs(outputs, (".json", ".csv"), force)
-    traced: list[dict[str, Any]] = []
+    files = [path for path in outputs if path != Path("-")]
+    inputs = [Path(vehicle)] if Path(vehicle).suffix else []
+    check_outputs(files, SUFFIXES, force)
+    check_not_inputs(files, inputs)
 
-    def look(sequences: list[Recursion]) -> None:
-        traced.extend(map(_sequence, sequences))
-        if trace and not json and Path("-") not in outputs:
-            print("\n\n".join(map(_trace, traced)), end="\n\n", flush=True)
-
-    if by_recursion:
-        from glidercli.trim import trims_by_recursion
-
-        found = trims_by_recursion(
-            vehicle,
-            speed=taken[0],
-            angle_of_attack=math.radians(taken[1]),
-            sideslip=math.radians(taken[2]),
-            printed=method is Method.RECURSION_PRINTED,
-            look=look,
-        )
+    if polar:
+        answer, warnings, text = _polar(vehicle, pins, journey, form)
+    elif sweep:
+        answer, warnings, text = _sweep(vehicle, pins, sweep, form, linearize)
+    elif by_recursion:
+        answer, warnings, text = _recursion(vehicle, pins, method, linearize, trace)
     else:
-        from glidercli.trim import trim as solve
+        answer, warnings, text = _root(vehicle, pins, form, linearize)
+    warn(warnings, quiet)
+    write(answer, *files, record=provenance(inputs=inputs, origin="computed"), force=force)
+    for path in files:
+        say(f"wrote {path}", quiet)
+    print(json_text(answer.document()) if json or stdout else text)
 
-        one = solve(
-            vehicle,
-            net_buoyancy=taken[0],
-            mass_position=taken[1],
-            mass_rotation=math.radians(taken[2]),
-            equations=(equations or Equations.FULL).value,
+
+def _root(vehicle: str, pins: dict[str, float], form: Equations, linearize: bool) -> _Told:
+    """One question, every solution."""
+    from glidercli.trim import trims
+
+    return _answered(trims(vehicle, equations=form.value, **pins), linearize)
+
+
+def _recursion(vehicle: str, pins: dict[str, float], method: Method, linearize: bool, trace: bool) -> _Told:
+    """The same by the paper's recursion, with its iterates where they are wanted; they are shown even if it fails."""
+    from glidercli.cli.trim_text import passes
+    from glidercli.errors import NoSolutionError, UsageError
+    from glidercli.trim import trims_by_recursion
+    from glidercli.trim.pins import spelled
+
+    taken = ("speed", "angle_of_attack", "sideslip")
+    for named, what in (([n for n in pins if n not in taken], "it cannot take"), (
+        [n for n in taken if n not in pins], "missing:")):  # fmt: skip
+        if named:
+            takes, told = ", ".join(map(spelled, taken)), ", ".join(map(spelled, named))
+            raise UsageError(f"--method {method.value} takes {takes}; {what} {told}")
+    sequences: list[Recursion] = []
+    try:
+        found = trims_by_recursion(
+            vehicle, **pins, printed=method is Method.RECURSION_PRINTED, look=lambda ran: sequences.extend(ran)
         )
-        found = [one]
-    warn(found[0].warnings, quiet)
-    document: dict[str, Any] = {"trims": [one.document() for one in found]}
-    if trace:
-        document["trace"] = traced
-    for path in outputs:
-        _write(document, path, vehicle, force)
-    if json:
-        print(json_text(document))
-    elif Path("-") not in outputs:
-        titles = [f"solution {i} of {len(found)}\n" if len(found) > 1 else "" for i in range(1, len(found) + 1)]
-        print("\n\n".join(title + _table(one) for title, one in zip(titles, document["trims"], strict=True)))
+    except NoSolutionError:
+        if trace:
+            print("\n\n".join(passes(_sequence(one, [])) for one in sequences), flush=True)
+        raise
+    answer, warnings, text = _answered(found, linearize)
+    if not trace:
+        return answer, warnings, text
+    traced = [_sequence(one, found) for one in sequences]
+    answer = answer._replace(beside={"trace": traced})
+    return answer, warnings, "\n\n".join([*map(passes, traced), text])
 
 
-def _pins(method: Method, wanted: dict[str, float | None], others: dict[str, float | None]) -> list[float]:
-    """The values of the three pins that a method takes; UsageError where one is missing or another is given."""
+def _answered(found: list[Trim], linearize: bool) -> _Told:
+    """Trims of one question, as they are kept, warned of and shown."""
+    from glidercli.cli.printing import finite
+    from glidercli.cli.trim_text import several_trims
+    from glidercli.trim.output import Answer, columns_of
+
+    rows = [one.document() for one in found]
+    columns = columns_of(rows)
+    if linearize:
+        rows = [{**row, "modes": [m.document() for m in one.modes()]} for row, one in zip(rows, found, strict=True)]
+    which = f"solution 1 of {len(found)}: " if len(found) > 1 else ""
+    warnings = [which + line for line in found[0].warnings]
+    return Answer(columns, [finite(row) for row in rows], {}, None), warnings, several_trims(rows)
+
+
+def _sweep(vehicle: str, pins: dict[str, float], texts: list[str], form: Equations, linearize: bool) -> _Told:
+    """A sweep of one pin or more: every point's trims, and the points that have none."""
+    from glidercli.cli.trim_text import rows_text
+    from glidercli.trim import sweep
+    from glidercli.trim.figure import figure
+    from glidercli.trim.output import Answer, rows_of
+    from glidercli.trim.pins import QUANTITIES
+    from glidercli.trim.stability import modes
+    from glidercli.trim.sweep import axis
+
+    axes = tuple(axis(text) for text in texts)
+    found = sweep(vehicle, axes, equations=form.value, linearize=linearize, **pins)
+    missing = [{**found.at(number), "reason": reason} for number, reason in sorted(found.missing.items())]
+    columns = {**found.table, "solution": found.solution}
+    rows = None
+    if found.linear is not None:
+        rows = [
+            {**row, "modes": [mode.document() for mode in modes(A)]}
+            for row, A in zip(rows_of(columns), found.linear, strict=True)
+        ]
+    fixed = ", ".join(
+        f"{name.replace('_', ' ')} {value / QUANTITIES[name].factor:g} {QUANTITIES[name].unit}"
+        for name, value in pins.items()
+    )
+    title = f"{vehicle}, {form.value} equations" + (f": {fixed}" if fixed else "")
+    answer = Answer(columns, rows, {"points": found.points, "missing": missing}, lambda: figure(found, title))
+    shown = {name: column[: _SHOWN + 1] for name, column in columns.items()}
+    return answer, found.warnings, rows_text(rows_of(shown), _SHOWN, len(found.point))
+
+
+def _polar(vehicle: str, pins: dict[str, float], journey: dict[str, float | None], form: Equations) -> _Told:
+    """The polar of a vehicle and the best points on it."""
+    from glidercli.cli.trim_text import best_text
     from glidercli.errors import UsageError
+    from glidercli.trim import polar
+    from glidercli.trim.output import Answer, rows_of
+    from glidercli.trim.pins import spelled
+    from glidercli.trim.polar import BEST, Journey
+    from glidercli.trim.polar_figure import figure
 
-    extra = [f"--{name}" for name, value in others.items() if value is not None]
-    if extra:
-        takes = ", ".join(f"--{name}" for name in wanted)
-        raise UsageError(f"--method {method.value} takes {takes}; it cannot take {', '.join(extra)}")
-    missing = [f"--{name}" for name, value in wanted.items() if value is None]
-    if missing:
-        raise UsageError(f"too few pins: {' and '.join(missing)} would complete the trim")
-    return [value for value in wanted.values() if value is not None]
+    others = [spelled(name) for name in pins if name != "net_buoyancy"]
+    if others:
+        raise UsageError(f"--polar takes --net-buoyancy at most; it cannot take {', '.join(others)}")
+    way = Journey(**{name: value for name, value in journey.items() if value is not None})
+    found = polar(vehicle, net_buoyancy=pins.get("net_buoyancy"), journey=way, equations=form.value)
+    on_curves = found.curve != BEST
+    columns = {name: column[on_curves] for name, column in found.table.items()}
+    document = found.document()
+    answer = Answer(columns, rows_of(columns), {"polar": document}, lambda: figure(found, way, vehicle))
+    return answer, found.warnings, best_text(document, way.current)
 
 
-def _sequence(one: Recursion) -> dict[str, Any]:
-    """One sequence of the recursion as plain values: the vector D of eq. (44), pass by pass."""
+def _sequence(one: Recursion, found: list[Trim]) -> dict[str, Any]:
+    """One sequence of the recursion as plain values: the vector D of eq. (44), pass by pass, and what came of it."""
     rows = [
         {
             "pitch_deg": math.degrees(D.pitch),
@@ -145,62 +262,11 @@ def _sequence(one: Recursion) -> dict[str, Any]:
         }
         for D in one.iterates
     ]
-    return {"start": one.start, "converged": one.converged, "residual": one.residual, "iterates": rows}
-
-
-def _trace(sequence: dict[str, Any]) -> str:
-    """A sequence for people, a line each pass."""
-    rows = sequence["iterates"]
-    end = "a trim" if sequence["converged"] else "no trim"
-    lines = [f"{sequence['start']}: {end}, residual {sequence['residual']:.1e} N or N m"]
-    lines.append("pass  " + "  ".join(f"{name:>18}" for name in rows[0]))
-    lines += [f"{i:>4}  " + "  ".join(f"{v:>18.12f}" for v in row.values()) for i, row in enumerate(rows, start=1)]
-    return "\n".join(lines)
-
-
-def _write(document: dict[str, Any], path: Path, vehicle: str, force: bool) -> None:
-    """One output: JSON with its provenance inside, or a CSV with it beside."""
-    from glidercli.cli.printing import finite, json_text
-    from glidercli.files import atomic
-    from glidercli.provenance import provenance
-
-    inputs = [Path(vehicle)] if Path(vehicle).suffix else []
-    record = provenance(inputs=inputs, origin="computed")
-    if str(path) == "-":
-        print(json_text(document))
-    elif path.suffix.lower() == ".json":
-        with atomic(path, force) as part:
-            part.write_text(json_text({**document, "provenance": record}) + "\n", encoding="utf-8")
-    else:
-        rows = [finite(row) for row in document["trims"]]
-        lines = [",".join(rows[0])] + [",".join("" if v is None else str(v) for v in row.values()) for row in rows]
-        beside = path.with_name(path.name + "-metadata.json")
-        with atomic(path, force) as part, atomic(beside, force) as metadata:
-            part.write_text("\n".join(lines) + "\n", encoding="utf-8")
-            metadata.write_text(json_text(record) + "\n", encoding="utf-8")
-
-
-def _table(t: dict[str, Any]) -> str:
-    """The trim for people: the ten parameters, then what follows from them."""
-    radius = f"{t['turning_radius_m']:.2f} m" if math.isfinite(t["turning_radius_m"]) else "straight"
-    vertical = t["vertical_speed_m_s"]
-    rows = [
-        ("speed", f"{t['speed_m_s']:.4f} m/s"),
-        ("angle of attack", f"{t['angle_of_attack_deg']:.4f} deg"),
-        ("sideslip", f"{t['sideslip_deg']:.4f} deg"),
-        ("yaw rate", f"{t['yaw_rate_rad_s']:.6f} rad/s ({t['yaw_rate_deg_s']:.4f} deg/s)"),
-        ("roll", f"{t['roll_deg']:.4f} deg"),
-        ("pitch", f"{t['pitch_deg']:.4f} deg"),
-        ("mass position", f"{t['mass_position_m']:.4f} m"),
-        ("mass rotation", f"{t['mass_rotation_deg']:.2f} deg"),
-        ("net buoyancy", f"{t['net_buoyancy_kg']:.4f} kg"),
-        ("turning radius", radius),
-        ("vertical speed", f"{abs(vertical):.4f} m/s {'down' if vertical >= 0.0 else 'up'}"),
-        ("horizontal speed", f"{t['horizontal_speed_m_s']:.4f} m/s"),
-        ("glide angle", f"{t['glide_angle_deg']:.2f} deg"),
-        ("lift to drag", f"{t['lift_to_drag']:.3f}"),
-        ("residual", f"{t['residual']:.1e} N or N m, {t['iterations']} iterations, {t['equations']} equations"),
-        ("stable", "yes" if t["stable"] else "no"),
-        ("within limits", "yes" if t["within_limits"] else "no"),
-    ]
-    return "\n".join(f"{name:<17}{value}" for name, value in rows)
+    outcome = "no trim"
+    for number, trim in enumerate(found, start=1):
+        off = (one.last.mb - trim.net_buoyancy, one.last.rrx - trim.mass_position, one.last.gamma - trim.mass_rotation)
+        if one.converged and max(map(abs, off)) < 1e-9:
+            outcome = f"solution {number}"
+    return {
+        "start": one.start, "converged": one.converged, "outcome": outcome, "residual": one.residual, "iterates": rows,
+    }  # fmt: skip

@@ -14,13 +14,15 @@ from glidercli.trim.result import Trim
 from glidercli.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from glidercli.model.parameters import Parameters
     from glidercli.ocean.water import Water
+    from glidercli.trim.polar import Journey, Polar
     from glidercli.trim.recursion import Recursion
+    from glidercli.trim.sweep import Axis, TrimMap
 
-__all__ = ["Trim", "trim", "trims", "trims_by_recursion"]
+__all__ = ["Trim", "polar", "sweep", "trim", "trims", "trims_by_recursion"]
 
 
 def trim(vehicle: Vehicle | str = "seawing", *, equations: str = "full", **pins: float) -> Trim:
@@ -79,6 +81,39 @@ def trims(
     asked = question(given, craft, symmetric(p))
     found = solutions(asked, craft, equations == "paper", water, p)
     return answered(found, craft, water, p, equations=equations, method="root")
+
+
+def sweep(
+    vehicle: Vehicle | str, axes: Sequence[Axis], *, equations: str = "full", linearize: bool = False, **pins: float
+) -> TrimMap:
+    """Every steady flight at every point of a grid: axes are swept, pins are held; together three.
+
+    vehicle, equations, pins : as for ``trims``. axes : names and values, SI and rad. linearize : whether the linear
+    model of each is wanted. Raises as ``trims`` does; InputError also for more than a million points.
+    """
+    from glidercli.trim.sweep import trims_over
+
+    craft, p, water = _setting(vehicle, equations)
+    return trims_over(tuple(axes), pins, craft, equations, water, p, linearize=linearize)
+
+
+def polar(
+    vehicle: Vehicle | str = "seawing",
+    *,
+    net_buoyancy: float | None = None,
+    journey: Journey | None = None,
+    equations: str = "full",
+) -> Polar:
+    """The straight glides of a vehicle, and the best, the fastest and the cheapest of them.
+
+    net_buoyancy : kg; without one, five shares of the largest to either side. journey : the current against the
+    vehicle and the power besides the pump's; none by default. Raises InputError for what no vehicle can have.
+    """
+    from glidercli.trim.polar import Journey
+    from glidercli.trim.polar import polar as of
+
+    craft, p, water = _setting(vehicle, equations)
+    return of(craft, net_buoyancy, journey or Journey(), equations, water, p)
 
 
 def trims_by_recursion(

@@ -85,7 +85,7 @@ def _least(
 def _told(x: Unknowns, asked: Question) -> str:
     """What is not pinned, for people."""
     return ", ".join(
-        f"{name.replace('_', ' ')} {x[q.place] / q.factor:.4g} {q.unit}"
+        f"{name.replace('_', ' ')} {round(x[q.place] / q.factor, 4) + 0.0:.4g} {q.unit}"
         for name, q in QUANTITIES.items()
         if q.place != CURVATURE and name not in asked.names
     )

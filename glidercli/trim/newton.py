@@ -18,8 +18,10 @@ EXACT, ROUGH = 1e-11, 1e-4
 ROUNDING = 1e-14
 """Residual in N or N m that rounding leaves in static moments of some N m; no solution is asked to be better."""
 MOST_ITERATIONS = 30
+FEW_ITERATIONS = 9
+"""A start that is near needs four to seven; one step of a continuation that needs more is better halved."""
 _HALVINGS = 8
-_SMALLEST_STEP = 1e-3  # share of the way, at which a continuation gives up
+_SMALLEST_STEP = 1.0 / 128.0  # share of the way, at which a continuation gives up
 
 Values = tuple[float, float, float]
 
@@ -81,7 +83,14 @@ def off(x: Unknowns, pins: Pins, values: Values, printed: bool, water: Water, p:
 
 @kernel
 def newton(
-    start: Unknowns, pins: Pins, values: Values, printed: bool, water: Water, p: Parameters, relative: float = EXACT
+    start: Unknowns,
+    pins: Pins,
+    values: Values,
+    printed: bool,
+    water: Water,
+    p: Parameters,
+    relative: float = EXACT,
+    most: int = MOST_ITERATIONS,
 ) -> tuple[Unknowns, int, bool]:
     """(x, iterations, whether it is a trim) by damped Newton: each step is halved until the equations come nearer zero.
 
@@ -90,7 +99,7 @@ def newton(
     """
     x = pinned(start, pins, values)
     far = off(x, pins, values, printed, water, p)
-    for iteration in range(1, MOST_ITERATIONS + 1):
+    for iteration in range(1, most + 1):
         A, r = system(x, pins, values, printed, water, p)
         try:
             step = np.linalg.solve(A, r)
@@ -110,7 +119,7 @@ def newton(
         x, far = trial, new
         if far < tolerance(x[8], water, relative):
             return x, iteration, True
-    return x, MOST_ITERATIONS, False
+    return x, most, False
 
 
 @kernel
@@ -129,7 +138,7 @@ def follow(
         c = at[2] + share * (values[2] - at[2])
         if share == 1.0:
             a, b, c = values
-        y, iterations, found = newton(x, pins, (a, b, c), printed, water, p, relative)
+        y, iterations, found = newton(x, pins, (a, b, c), printed, water, p, relative, FEW_ITERATIONS)
         used += iterations
         if found and ordinary(y):
             x, done = y, share

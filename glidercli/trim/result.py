@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from glidercli.errors import NoSolutionError
 from glidercli.frames import Vector, dot, down_in_body
+from glidercli.kernel import kernel
 from glidercli.model.hydrodynamics import velocity_from_flow
 from glidercli.model.parameters import Parameters, symmetric
 from glidercli.ocean.water import Water
@@ -20,7 +21,7 @@ from glidercli.trim.stability import Mode, growth_rate, linearised, modes
 from glidercli.trim.steady import Unknowns, radius_speed, six
 from glidercli.vehicle.vehicle import Vehicle
 
-__all__ = ["Trim", "answered", "in_table_4", "no_glide", "ranked", "trim_of"]
+__all__ = ["Trim", "answered", "no_glide", "ranked", "speeds", "table_4", "trim_of"]
 
 VERTICAL = math.radians(1.0)
 """A path so near to the vertical is called vertical; its horizontal speed is below 2 % of the whole."""
@@ -100,6 +101,7 @@ class Trim:
             "method": self.method,
             "equations": self.equations,
             "stable": self.stable,
+            "growth_rate_1_s": self.growth_rate,
             "within_limits": self.within_limits,
         }
 
@@ -193,6 +195,7 @@ def _warnings(alpha: float, beta: float, growth: float, outside: Sequence[str], 
     return told
 
 
+@kernel
 def speeds(speed: float, alpha: float, beta: float, roll: float, pitch: float) -> tuple[float, float]:
     """Vertical speed V . k_b, positive down, and horizontal speed, m/s."""
     V: Vector = velocity_from_flow(speed, alpha, beta)
@@ -210,7 +213,7 @@ def ranked(trims: Sequence[Trim], nominal: float) -> list[Trim]:
 
     nominal : position of the movable mass that holds the hull level, m.
     """
-    order = sorted(trims, key=lambda t: (not t.within_limits, not in_table_4(t, nominal), not t.stable))
+    order = sorted(trims, key=lambda t: (not t.within_limits, not table_4(_unknowns(t), nominal), not t.stable))
     kept: list[Trim] = []
     for one in order:
         if not any(_same(one, other) for other in kept):
@@ -218,15 +221,16 @@ def ranked(trims: Sequence[Trim], nominal: float) -> list[Trim]:
     return kept
 
 
-def in_table_4(t: Trim, nominal: float) -> bool:
+def table_4(x: Sequence[float], nominal: float) -> bool:
     """Whether the signs are those of one of the four spirals of Table 4, or of a straight glide of their kind.
 
     A dive has m_b, alpha and r_rx - nominal positive and theta negative, a climb the other way round; omega_3 has the
     sign of gamma; beta and phi have it on a climb, and the other one on a dive.
     """
-    way = math.copysign(1.0, t.net_buoyancy)
-    glide = all(way * value > 0.0 for value in (t.angle_of_attack, t.mass_position - nominal, -t.pitch))
-    turning = [t.mass_rotation, t.yaw_rate, -way * t.sideslip, -way * t.roll]
+    _, alpha, beta, omega3, phi, theta, rrx, gamma, mb = x
+    way = math.copysign(1.0, mb)
+    glide = all(way * value > 0.0 for value in (alpha, rrx - nominal, -theta))
+    turning = [gamma, omega3, -way * beta, -way * phi]
     return glide and (all(v > 0.0 for v in turning) or all(v < 0.0 for v in turning) or all(v == 0.0 for v in turning))
 
 
