@@ -7,7 +7,6 @@ of speeds is made good.
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,11 +27,11 @@ __all__ = ["BEST", "Best", "Journey", "Polar", "polar"]
 
 SHARES = (0.2, 0.4, 0.6, 0.8, 1.0)
 """Of the largest net buoyancy to either side: the curves of a polar without a net buoyancy of its own."""
-STEP = 0.1
-"""deg of angle of attack between the points of a curve."""
+POINTS = 121
+"""Points of a curve, denser toward the small angles of attack of steep glides."""
 BEST = -1
 """Number of no curve: that of the best points."""
-_FINE, _FINE_STEP = 200, 0.02  # shares and deg of the search; energy is flat about its optimum, to 1e-5 of itself
+_FINE = 200  # net buoyancies, and a tenth of the angles, of the search; energy is flat about its optimum
 
 
 class Journey(NamedTuple):
@@ -101,11 +100,11 @@ def polar(
         extremes = {"dive": limit.maximum, "climb": limit.minimum}
         curves = [one * share for one in extremes.values() if one for share in SHARES]
         ways = {way: one * np.arange(1, _FINE + 1) / _FINE for way, one in extremes.items() if one}
-    parts = [_glides(np.array([mb]), STEP, craft, water, p) for mb in curves]
+    parts = [_glides(np.array([mb]), POINTS, craft, water, p) for mb in curves]
     numbers = [np.full(len(part), number) for number, part in enumerate(parts)]
     best, used = {}, sum(map(len, parts))
     for way, buoyancies in ways.items():
-        chosen, why = _best(_glides(buoyancies, _FINE_STEP, craft, water, p), journey, craft, water)
+        chosen, why = _best(_glides(buoyancies, 10 * _FINE, craft, water, p), journey, craft, water)
         kept = [x for x in chosen if x is not None]
         places = iter(range(used, used + len(kept)))
         glide, fastest, cheapest = (None if x is None else next(places) for x in chosen)
@@ -132,10 +131,10 @@ def _check(journey: Journey, craft: Vehicle, p: Parameters) -> None:
         raise InputError("pump efficiency", f"{journey.pump_efficiency:g} is not allowed; above 0 and up to 1 are")
 
 
-def _glides(buoyancies: Array, step: float, craft: Vehicle, water: Water, p: Parameters) -> Array:
-    """Straight glides (n, 9) of net buoyancies of one sign, over the fitted angles of attack, ``step`` deg."""
+def _glides(buoyancies: Array, count: int, craft: Vehicle, water: Water, p: Parameters) -> Array:
+    """Straight glides (n, 9) of net buoyancies of one sign, over the fitted angles of attack, ``count`` of these."""
     fitted = craft.hydrodynamics.fitted_angle
-    alpha = np.arange(0.0, fitted + 1e-9, math.radians(step)) * np.sign(buoyancies[0])
+    alpha = fitted * np.linspace(0.0, 1.0, count) ** 2 * np.sign(buoyancies[0])
     mb, alpha = (grid.ravel() for grid in np.meshgrid(buoyancies, alpha, indexing="ij"))
     x = glides(alpha, mb, water, p)
     x = x[np.isfinite(x[:, 0])]
