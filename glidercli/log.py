@@ -78,7 +78,7 @@ class Log:
     """A flight.
 
     channels : by name, each with its own times.
-    origin : "measured", "simulated" or "reconstruction": of the log as a whole.
+    origin : of the log as a whole; "measured" for a recording, some channels of which may be derived.
     metadata : short texts by key; "provenance" is JSON (see provenance.py), others are for people.
     events : in time order.
     """
@@ -96,7 +96,7 @@ class Log:
 
     @property
     def kind(self) -> str:
-        """What the log is, in capitals: MEASURED, SIMULATED, SIMULATED FROM A RECONSTRUCTION, RECONSTRUCTION."""
+        """What the log is, in capitals: MEASURED, DERIVED, SIMULATED, ... FROM A RECONSTRUCTION, RECONSTRUCTION."""
         remade = self.origin != "reconstruction" and "reconstruction" in self.metadata
         return self.origin.upper() + (" FROM A RECONSTRUCTION" if remade else "")
 

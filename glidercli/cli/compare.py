@@ -91,8 +91,8 @@ def compare(
         channels=channels,
         names=[measured, *simulated],
     )
-    recorded = [run.side.name for run in comparison.runs if run.side.origin == "measured"]
-    warn([f"{name} is measured, and stands here as a simulation" for name in recorded], quiet)
+    recorded = [run.side for run in comparison.runs if run.side.origin in ("measured", "derived")]
+    warn([f"{side.name} is {side.origin}, and stands here as a simulation" for side in recorded], quiet)
     check_not_inputs(files, inputs)
     record = provenance(inputs=dict.fromkeys(inputs), origin=comparison.origin)
     write(comparison, *files, provenance=record, force=force)

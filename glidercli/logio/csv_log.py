@@ -118,7 +118,8 @@ def read_csv(path: Path) -> tuple[Log, FileReport]:
             warnings.append(f"has changed since {beside.name} was written; what that says of origins is kept")
     elif word == _BOTH:
         warnings.append(f"{beside.name} is missing: which channels are derived is not known, all are taken as derived")
-    origin: Origin = metadata.get("origin") or ("measured" if word in (None, _BOTH) else cast(Origin, word))
+    of_rows = "derived" if word == _BOTH else cast(Origin, word or "measured")
+    origin: Origin = metadata.get("origin", of_rows)
     log = Log.from_table(table, origin, told)
     origins, other = metadata.get("channels", {}), "derived" if word == _BOTH else origin
     channels = [Channel(c.name, c.time_ns, c.values, origins.get(c.name, other)) for c in log.channels.values()]

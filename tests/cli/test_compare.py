@@ -239,6 +239,14 @@ def test_a_measured_log_on_the_simulated_side_is_said(logs) -> None:
     assert "measured, and stands here as a simulation" in glider(logs[0], logs[0]).stderr
 
 
+def test_a_table_that_lost_its_metadata_is_compared_as_derived(tmp_path: Path, logs) -> None:
+    parted = tmp_path / "parted.csv"
+    parted.write_text(logs[0].read_text().replace(",measured\n", ",measured and derived\n"))
+    result = glider(parted, logs[1])
+    assert f"{parted} (derived)" in result.stdout
+    assert "parted.csv is derived, and stands here as a simulation" in glider(logs[0], parted).stderr
+
+
 def test_an_input_is_never_replaced(logs) -> None:
     before = logs[1].read_bytes()
     assert "input" in failed(glider(*logs, "-o", logs[1], "--force"), 1)

@@ -164,7 +164,8 @@ def test_a_table_parted_from_its_metadata_calls_nothing_derived_measured(tmp_pat
     (tmp_path / "a.csv-metadata.json").unlink()
     parted = read([tmp_path / "a.csv"])
     assert [parted.log[name].origin for name in ("depth", "north")] == ["derived", "derived"]
-    assert parted.log.origin == "measured"
+    assert parted.log.origin == "derived"
+    assert parted.log.kind == "DERIVED"
     assert any("which channels are derived is not known" in line for line in parted.files[0].warnings)
 
 
