@@ -4,30 +4,24 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Collection, Mapping
 from pathlib import Path
-from typing import Any, TextIO, cast, get_args
+from typing import Any, TextIO, cast
 
 import numpy as np
 
 from glidercli.channels import PHASES, by_column
 from glidercli.errors import InputError
 from glidercli.log import Channel, Event, Log, Origin
+from glidercli.logio.csv_metadata import BOTH, metadata_path, origin_word, read_metadata, stranger
 from glidercli.logio.report import FileReport
 from glidercli.provenance import file_hash
 
-__all__ = ["is_csv", "metadata_path", "read_csv", "write_csv", "write_csv_stream", "write_metadata"]
+__all__ = ["is_csv", "read_csv", "write_csv", "write_csv_stream"]
 
 _EPOCH = "2000-01-01T00:00:00"
 """Start of a table that has elapsed_s alone; the same arbitrary date as for a flight without one."""
-_BOTH = "measured and derived"
 _YEARS = ("1700-01-01", "2200-01-01")
 """Times allowed: nanoseconds in 64 bits hold little more."""
-
-
-def metadata_path(path: Path) -> Path:
-    """Where the provenance of a CSV file stands."""
-    return path.with_name(path.name + "-metadata.json")
 
 
 def write_csv_stream(log: Log, stream: TextIO) -> None:
@@ -38,36 +32,14 @@ def write_csv_stream(log: Log, stream: TextIO) -> None:
     table = log.table()
     table["time_utc"] = np.datetime_as_string(table["time_utc"].to_numpy(), unit="ns")
     table["time_utc"] += "Z"
-    table["origin"] = _origin_word(log.origin, log.metadata, {c.origin for c in log.channels.values() if len(c)})
+    table["origin"] = origin_word(log.origin, log.metadata, {c.origin for c in log.channels.values() if len(c)})
     table.to_csv(stream, index=False, lineterminator="\n")
-
-
-def _origin_word(origin: str, metadata: Mapping[str, Any], of_channels: Collection[str]) -> str:
-    """What a row of the table is: measured, simulated, or reconstruction for all that was made from one."""
-    if "reconstruction" in metadata:
-        return "reconstruction"
-    return _BOTH if origin == "measured" and "derived" in of_channels else origin
 
 
 def write_csv(log: Log, path: Path) -> None:
     """The log as a CSV file."""
     with path.open("w", encoding="utf-8", newline="") as stream:
         write_csv_stream(log, stream)
-
-
-def write_metadata(log: Log, path: Path, table: Path) -> None:
-    """What the table cannot hold: origin, metadata with provenance, the channels' origins, events; its hash."""
-    told: dict[str, Any] = dict(log.metadata)
-    if "provenance" in told:
-        told["provenance"] = json.loads(told["provenance"])
-    document = {
-        "origin": log.origin,
-        "metadata": told,
-        "channels": {name: channel.origin for name, channel in log.channels.items()},
-        "events": [{"name": e.name, "time_ns": e.time_ns, "depth_m": e.depth} for e in log.events],
-        "table_sha256": file_hash(table),
-    }
-    path.write_text(json.dumps(document, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
 def is_csv(path: Path) -> bool:
@@ -100,8 +72,7 @@ def read_csv(path: Path) -> tuple[Log, FileReport]:
             unknown += [] if name in ("time_utc", "elapsed_s", "origin") else [name]
         else:
             table[name] = _phases(path, text[name]) if spec.name == "phase" else _numbers(path, name, text[name])
-    beside = metadata_path(path)
-    metadata = _metadata(beside) if beside.is_file() else {}
+    metadata = read_metadata(path)
     warnings = [f"columns not known and not used: {', '.join(unknown)}"] if unknown else []
     told = {key: v if isinstance(v, str) else json.dumps(v) for key, v in metadata.get("metadata", {}).items()}
     if "time_utc" not in text:
@@ -110,25 +81,38 @@ def read_csv(path: Path) -> tuple[Log, FileReport]:
         told["origin_note"] = "taken as measured: the table does not say where its values come from"
         warnings.append(told["origin_note"])
     word = _origin_of_rows(path, text, warnings)
+    beside = metadata_path(path).name
     if metadata:
-        expected = _origin_word(metadata["origin"], metadata["metadata"], set(metadata["channels"].values()))
+        expected = origin_word(metadata["origin"], metadata["metadata"], set(metadata["channels"].values()))
         if word not in (None, expected):
-            raise InputError(path, f"its rows say {word}, {beside.name} says {expected}; one belongs to another table")
+            raise InputError(path, f"its rows say {word}, {beside} says {expected}; one belongs to another table")
         if metadata.get("table_sha256") not in (None, file_hash(path)):
-            warnings.append(f"has changed since {beside.name} was written; what that says of origins is kept")
-    elif word == _BOTH:
-        warnings.append(f"{beside.name} is missing: which channels are derived is not known, all are taken as derived")
-    of_rows = "derived" if word == _BOTH else cast(Origin, word or "measured")
+            _check_same(path, table, metadata, "time_utc" in text)
+            warnings.append(f"has changed since {beside} was written; what that says of origins is kept")
+    elif word == BOTH:
+        warnings.append(f"{beside} is missing: which channels are derived is not known, all are taken as derived")
+    of_rows = "derived" if word == BOTH else cast(Origin, word or "measured")
     origin: Origin = metadata.get("origin", of_rows)
     log = Log.from_table(table, origin, told)
-    origins, other = metadata.get("channels", {}), "derived" if word == _BOTH else origin
+    origins, other = metadata.get("channels", {}), "derived" if word == BOTH else origin
     channels = [Channel(c.name, c.time_ns, c.values, origins.get(c.name, other)) for c in log.channels.values()]
-    events = tuple(Event(e["name"], int(e["time_ns"]), e["depth_m"]) for e in metadata.get("events", []))
+    events = tuple(Event(e["name"], e["time_ns"], e["depth_m"]) for e in metadata.get("events", []))
     log = Log({channel.name: channel for channel in channels if len(channel)}, origin, log.metadata, events)
     kept = int(table.drop(columns="time_utc").notna().any(axis=1).sum())
     dropped = {"no value": len(table) - kept, "wrong number of fields": cut}
     reasons = tuple((reason, count) for reason, count in dropped.items() if count)
     return log, FileReport(path, "glider-csv", len(table) + cut, kept, reasons, tuple(warnings))
+
+
+def _check_same(path: Path, table: Any, metadata: dict[str, Any], dated: bool) -> None:
+    """Refuse metadata that can only be of another table. dated : whether the table has dates, not elapsed_s alone."""
+    values = table.drop(columns="time_utc")
+    specs = [by_column(str(name)) for name in values.columns[values.notna().any()]]
+    times = table["time_utc"].to_numpy().astype(np.int64)
+    span = (int(times[0]), int(times[-1])) if dated and len(times) else None
+    why = stranger(metadata, [spec.name for spec in specs if spec], span)
+    if why:
+        raise InputError(path, f"{metadata_path(path).name} is of another table: {why}; remove it to read the table")
 
 
 def _text_table(path: Path) -> tuple[Any, int]:
@@ -156,25 +140,12 @@ def _text_table(path: Path) -> tuple[Any, int]:
     return pd.DataFrame(rows, columns=names, index=lines, dtype=str), cut
 
 
-def _metadata(path: Path) -> dict[str, Any]:
-    """What `write_metadata` wrote; InputError where it is something else."""
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-        origins = [found["origin"], *found["channels"].values()]
-        told, events = found["metadata"], [(e["name"], int(e["time_ns"]), e["depth_m"]) for e in found["events"]]
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InputError(path, f"is not the metadata of a log's CSV: {type(error).__name__} {error}") from None
-    if not isinstance(told, dict) or not isinstance(events, list) or not set(origins) <= set(get_args(Origin)):
-        raise InputError(path, f"is not the metadata of a log's CSV; origins are {', '.join(get_args(Origin))}")
-    return dict(found)
-
-
 def _origin_of_rows(path: Path, text: Any, warnings: list[str]) -> str | None:
     """The least that a row says in the column named origin; None without it."""
     if "origin" not in text or not len(text):
         return None
     words = text["origin"].str.strip()
-    known = ("reconstruction", "simulated", "derived", _BOTH, "measured")  # the least first
+    known = ("reconstruction", "simulated", "derived", BOTH, "measured")  # the least first
     bad = np.flatnonzero(~words.isin(known))
     if len(bad):
         row = int(bad[0])

@@ -13,7 +13,7 @@ from glidercli.channels import CHANNELS
 from glidercli.errors import InputError, UsageError
 from glidercli.files import check_not_inputs, check_outputs
 from glidercli.log import Channel, Log
-from glidercli.logio.csv_log import metadata_path
+from glidercli.logio.csv_metadata import metadata_path
 from glidercli.logio.reading import read
 from glidercli.logio.report import FileReport
 from glidercli.logio.writing import SUFFIXES, write

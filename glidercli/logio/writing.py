@@ -8,7 +8,8 @@ from pathlib import Path
 from glidercli.errors import OutputError
 from glidercli.files import atomic
 from glidercli.log import Log
-from glidercli.logio.csv_log import metadata_path, write_csv, write_metadata
+from glidercli.logio.csv_log import write_csv
+from glidercli.logio.csv_metadata import metadata_path, write_metadata
 from glidercli.provenance import provenance_json
 
 __all__ = ["SUFFIXES", "write"]

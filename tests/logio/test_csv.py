@@ -178,6 +178,35 @@ def test_metadata_of_another_table_are_refused(tmp_path: Path) -> None:
         read([tmp_path / "b.csv"])
 
 
+def table_of(path: Path, seconds: int, *names: str) -> Path:
+    times = np.arange(seconds) * 10**9
+    write(Log({n: Channel(n, times, np.arange(float(seconds)), "simulated") for n in names}, "simulated"), path)
+    return path.with_name(path.name + "-metadata.json")
+
+
+@pytest.mark.parametrize(
+    ("seconds", "names", "why"),
+    [(9, ("depth",), "it ends at 1970-01-01T00:00:04"), (5, ("depth", "pitch"), "it tells nothing of pitch")],
+)
+def test_metadata_of_another_table_of_the_same_origin_are_refused(
+    tmp_path: Path, seconds: int, names: tuple[str, ...], why: str
+) -> None:
+    other = table_of(tmp_path / "a.csv", 5, "depth")
+    own = table_of(tmp_path / "b.csv", seconds, *names)
+    own.write_bytes(other.read_bytes())
+    with pytest.raises(InputError, match=rf"b\.csv: b\.csv-metadata\.json is of another table: {why}"):
+        read([tmp_path / "b.csv"])
+
+
+def test_metadata_of_an_earlier_version_tell_no_times(tmp_path: Path) -> None:
+    beside = table_of(tmp_path / "a.csv", 5, "depth")
+    told = json.loads(beside.read_text())
+    del told["span_ns"]
+    told["table_sha256"] = "0"
+    beside.write_text(json.dumps(told))
+    assert "has changed" in read([tmp_path / "a.csv"]).files[0].warnings[0]
+
+
 def test_a_table_changed_since_is_said(tmp_path: Path) -> None:
     write(mixed(), tmp_path / "a.csv")
     assert read([tmp_path / "a.csv"]).files[0].warnings == ()

@@ -63,12 +63,27 @@ def test_a_table_that_says_nothing_is_told_of(tmp_path: Path) -> None:
     assert "arbitrary" in metadata["time_note"]
 
 
-@pytest.mark.parametrize("text", ["{", "[]", "{}", '{"origin": "true", "channels": {}, "metadata": {}, "events": []}'])
-def test_metadata_of_another_kind_are_named(tmp_path: Path, text: str) -> None:
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("{", "no JSON"),
+        ("[]", "no object"),
+        ("{}", "without a proper origin, metadata, channels, events"),
+        ('{"origin": 1, "channels": {}, "metadata": {}, "events": []}', "without a proper origin"),
+        ('{"origin": "true", "channels": {}, "metadata": {}, "events": []}', "origins are measured, derived"),
+        ('{"origin": "measured", "channels": {"depth": []}, "metadata": {}, "events": []}', "origins are measured"),
+        ('{"origin": "measured", "channels": {}, "metadata": {}, "events": [{"name": "apogee"}]}', "event of"),
+        ('{"origin": "measured", "channels": {}, "metadata": {}, "events": [], "span_ns": "1"}', "proper span_ns"),
+    ],
+)
+def test_metadata_of_another_kind_are_named(tmp_path: Path, text: str, why: str) -> None:
     (tmp_path / "a.csv").write_text("elapsed_s,depth_m\n0,1\n")
     (tmp_path / "a.csv-metadata.json").write_text(text)
-    with pytest.raises(InputError, match=r"a\.csv-metadata\.json: is not the metadata"):
+    with pytest.raises(InputError, match=r"a\.csv-metadata\.json is not the metadata of a log's CSV: ") as caught:
         read([tmp_path / "a.csv"])
+    assert why in str(caught.value)
+    assert str(caught.value).count("a.csv: ") == 1
+    assert "Error" not in str(caught.value)
 
 
 def test_an_unknown_origin_is_named(tmp_path: Path) -> None:

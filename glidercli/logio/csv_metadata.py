@@ -1,0 +1,118 @@
+"""What of a Log can a CSV table not hold? It stands beside the table in FILE.csv-metadata.json."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from typing import Any, get_args
+
+import numpy as np
+
+from glidercli.errors import InputError
+from glidercli.log import Log, Origin
+from glidercli.provenance import file_hash
+
+__all__ = ["BOTH", "metadata_path", "origin_word", "read_metadata", "stranger", "write_metadata"]
+
+BOTH = "measured and derived"
+"""What a row of a measured log is that holds derived channels too."""
+_KINDS: dict[str, type] = {"origin": str, "metadata": dict, "channels": dict, "events": list}
+
+
+def metadata_path(path: Path) -> Path:
+    """Where the provenance of a CSV file stands."""
+    return path.with_name(path.name + "-metadata.json")
+
+
+def origin_word(origin: str, metadata: Mapping[str, Any], of_channels: Collection[str]) -> str:
+    """What a row of the table is: measured, simulated, or reconstruction for all that was made from one."""
+    if "reconstruction" in metadata:
+        return "reconstruction"
+    return BOTH if origin == "measured" and "derived" in of_channels else origin
+
+
+def write_metadata(log: Log, path: Path, table: Path) -> None:
+    """Origin, metadata with provenance, the channels' origins, events; hash and span of time of the table."""
+    told: dict[str, Any] = dict(log.metadata)
+    if "provenance" in told:
+        told["provenance"] = json.loads(told["provenance"])
+    kept = {name: channel.origin for name, channel in log.channels.items() if len(channel)}
+    document = {
+        "origin": log.origin,
+        "metadata": told,
+        "channels": kept,
+        "events": [{"name": e.name, "time_ns": e.time_ns, "depth_m": e.depth} for e in log.events],
+        "span_ns": [log.start_ns, log.end_ns] if kept else None,
+        "table_sha256": file_hash(table),
+    }
+    path.write_text(json.dumps(document, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def read_metadata(table: Path) -> dict[str, Any]:
+    """What ``write_metadata`` wrote beside a table, empty where nothing stands there; InputError for something else."""
+    path = metadata_path(table)
+    if not path.is_file():
+        return {}
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError:
+        fault = "it is no JSON"
+    except OSError as error:
+        raise InputError(table, f"{path.name} cannot be read: {error.strerror}") from None
+    else:
+        fault = _fault(found)
+    if fault:
+        raise InputError(table, f"{path.name} is not the metadata of a log's CSV: {fault}")
+    return dict(found)
+
+
+def _fault(found: Any) -> str:
+    """Why a JSON document is no metadata; "" where it is."""
+    if not isinstance(found, dict):
+        return "it holds no object"
+    wrong = [key for key, kind in _KINDS.items() if not isinstance(found.get(key), kind)]
+    wrong += [] if _is_span(found.get("span_ns")) else ["span_ns"]
+    if wrong:
+        return f"it is without a proper {', '.join(wrong)}"
+    if not all(origin in get_args(Origin) for origin in (found["origin"], *found["channels"].values())):
+        return f"origins are {', '.join(get_args(Origin))}"
+    return "" if all(map(_is_event, found["events"])) else "an event of it lacks name, time_ns or depth_m"
+
+
+def _is_span(span: Any) -> bool:
+    """Whether this is the first and the last time of a table, ns, or None."""
+    return span is None or (isinstance(span, list) and len(span) == 2 and all(map(_is_time, span)))
+
+
+def _is_time(value: Any) -> bool:
+    """Whether this is a time in ns that 64 bits hold."""
+    return type(value) is int and abs(value) < 2**63
+
+
+def _is_event(event: Any) -> bool:
+    """Whether this is an event as ``write_metadata`` writes it."""
+    return (
+        isinstance(event, dict)
+        and isinstance(event.get("name"), str)
+        and _is_time(event.get("time_ns"))
+        and isinstance(event.get("depth_m", ""), int | float | None)
+    )
+
+
+def stranger(metadata: Mapping[str, Any], channels: Collection[str], span_ns: tuple[int, int] | None) -> str | None:
+    """Why metadata can only be of another table, or None.
+
+    A table that lost rows or columns since it was written is still the same; one with a channel or a time more is not.
+
+    channels : those of the table. span_ns : its first and last time, UTC ns, or None where it does not tell them.
+    """
+    more = [name for name in channels if name not in metadata["channels"]]
+    if more:
+        return f"it tells nothing of {', '.join(more)}"
+    told = metadata.get("span_ns")
+    if told and span_ns and span_ns[0] < told[0]:
+        return f"it starts at {np.datetime64(told[0], 'ns')}, the table at {np.datetime64(span_ns[0], 'ns')}"
+    if told and span_ns and span_ns[1] > told[1]:
+        return f"it ends at {np.datetime64(told[1], 'ns')}, the table at {np.datetime64(span_ns[1], 'ns')}"
+    return None
