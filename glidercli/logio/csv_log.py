@@ -12,8 +12,9 @@ import numpy as np
 from glidercli.channels import PHASES, by_column
 from glidercli.errors import InputError
 from glidercli.log import Channel, Event, Log, Origin
-from glidercli.logio.csv_metadata import BOTH, metadata_path, origin_word, read_metadata, stranger
+from glidercli.logio.csv_metadata import metadata_path, origin_word, read_metadata, stranger
 from glidercli.logio.report import FileReport
+from glidercli.origins import BOTH, column_name, origins
 from glidercli.provenance import file_hash
 
 __all__ = ["is_csv", "read_csv", "write_csv", "write_csv_stream"]
@@ -122,7 +123,7 @@ def _text_table(path: Path) -> tuple[Any, int]:
     try:
         with path.open(encoding="utf-8-sig", newline="") as stream:
             reader = csv.reader(stream, strict=True)
-            names = [name.strip() for name in next(reader, [])]
+            names = [column_name(name) for name in next(reader, [])]
             rows, lines, cut = [], [], 0
             for row in reader:
                 if len(row) == len(names):
@@ -144,13 +145,7 @@ def _origin_of_rows(path: Path, text: Any, warnings: list[str]) -> str | None:
     """The least that a row says in the column named origin; None without it."""
     if "origin" not in text or not len(text):
         return None
-    words = text["origin"].str.strip()
-    known = ("reconstruction", "simulated", "derived", BOTH, "measured")  # the least first
-    bad = np.flatnonzero(~words.isin(known))
-    if len(bad):
-        row = int(bad[0])
-        raise InputError(path, f"line {text.index[row]}: origin = {words.iloc[row]!r}; allowed: {', '.join(known)}")
-    found = [word for word in known if (words == word).any()]
+    found = origins(path, zip(text.index, text["origin"], strict=True))
     if len(found) > 1:
         warnings.append(f"origins {', '.join(found)} in one table: all of it is taken as {found[0]}")
     return found[0]

@@ -11,12 +11,11 @@ import numpy as np
 
 from glidercli.errors import InputError
 from glidercli.log import Log, Origin
+from glidercli.origins import BOTH
 from glidercli.provenance import file_hash
 
-__all__ = ["BOTH", "metadata_path", "origin_word", "read_metadata", "stranger", "write_metadata"]
+__all__ = ["metadata_path", "origin_word", "read_metadata", "stranger", "write_metadata"]
 
-BOTH = "measured and derived"
-"""What a row of a measured log is that holds derived channels too."""
 _KINDS: dict[str, type] = {"origin": str, "metadata": dict, "channels": dict, "events": list}
 
 

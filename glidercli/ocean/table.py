@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from glidercli.channels import by_column
 from glidercli.errors import InputError
 from glidercli.ocean.source import listed
+from glidercli.origins import column_name, origins
 
 __all__ = ["Table", "parse_table"]
 
@@ -48,8 +49,9 @@ class Table:
 
     @property
     def reconstructed(self) -> bool:
-        """Whether a column named origin says of any row that it is a reconstruction."""
-        return "reconstruction" in self.cells.get("origin", ())
+        """Whether a column named origin says of any row that it is a reconstruction; InputError for a word unknown."""
+        said = zip(self.lines, self.cells["origin"], strict=True) if "origin" in self else ()
+        return "reconstruction" in origins(self.path, said)
 
     def numbers(self, column: str, low: float, high: float) -> Array:
         """A column, (n,), whose every cell must be a number from low to high; else InputError."""
@@ -115,7 +117,7 @@ def parse_table(path: Path, text: str, expected: str) -> Table:
     if len(rows) < 2:
         raise InputError(path, "has no rows below its column names")
     (line, heads), *rows = rows
-    names = [" ".join(head.split()) for head in heads]  # a quoted name may hold a line break
+    names = [column_name(" ".join(head.split())) for head in heads]  # a quoted name may hold a line break
     repeated = sorted({name for name in names if names.count(name) > 1})
     if repeated or "" in names:
         fault = f"column {repeated[0]} stands twice" if repeated and repeated[0] else "a column has no name"

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from glidercli.errors import InputError
 from glidercli.files import readable_file
+from glidercli.origins import column_name, origins
 
 __all__ = ["Schedule", "held", "read_schedule"]
 
@@ -51,6 +52,9 @@ def read_schedule(path: Path, name: str, until_depth: float | None) -> Schedule:
         table = pd.read_csv(readable_file(path))
     except (UnicodeDecodeError, pd.errors.ParserError) as error:
         raise InputError(path, f"is not a CSV table: {error}") from None
+    table.columns = [column_name(str(head)) for head in table.columns]
+    if table.columns.has_duplicates:
+        raise InputError(path, f"line 1: column {table.columns[table.columns.duplicated()][0]} stands there twice")
     missing = [column for column in _COLUMNS if column not in table]
     if missing:
         raise InputError(path, f"lacks {', '.join(missing)}; needed are {', '.join(_COLUMNS)}")
@@ -68,5 +72,6 @@ def read_schedule(path: Path, name: str, until_depth: float | None) -> Schedule:
     values = np.column_stack(
         [table["mass_position_m"], np.radians(table["mass_rotation_deg"]), table["net_buoyancy_kg"]]
     ).astype(float)
-    reconstructed = "origin" in table and bool((table["origin"] == "reconstruction").any())
+    said = enumerate(table["origin"].fillna("").astype(str), start=2) if "origin" in table else ()
+    reconstructed = "reconstruction" in origins(path, said)
     return Schedule(name, times, values, math.nan if until_depth is None else until_depth, reconstructed)

@@ -164,6 +164,31 @@ def test_a_plan_that_borrows_reconstructed_controls_says_so(glider_json: Callabl
     assert "dive.csv" in glider_json("simulate", "plan.toml")["reconstruction"]
 
 
+RESPELT = ("Origin", " Reconstruction ")
+
+
+@pytest.mark.parametrize("option", [("--ctd", "water.csv"), ("--adcp", "current.csv")])
+def test_a_reconstruction_is_one_however_it_is_spelt(glider: Run, tmp_path: Path, option: tuple[str, str]) -> None:
+    text = (RECONSTRUCTED / option[1]).read_text().replace("origin", RESPELT[0]).replace("reconstruction", RESPELT[1])
+    (tmp_path / option[1]).write_text(text)
+    done = glider("simulate", *CONTROLS, "--duration", "20", *option)
+    assert done.stdout.startswith("SIMULATED FROM A RECONSTRUCTION: " + option[1])
+    (tmp_path / option[1]).write_text(text.replace(RESPELT[1], "guess"))
+    one_line_error(
+        glider("simulate", *CONTROLS, "--duration", "20", *option), "line 2", "origin = 'guess'", "reconstruction"
+    )
+
+
+def test_reconstructed_controls_are_that_however_they_are_spelt(glider: Run, tmp_path: Path) -> None:
+    plan = 'name = "mine"\ndescription = "a plan"\nduration_s = 60\n[[leg]]\nname = "dive"\ncontrols = "dive.csv"\n'
+    (tmp_path / "plan.toml").write_text(plan)
+    text = (RECONSTRUCTED / "dive.csv").read_text().replace("origin", RESPELT[0]).replace("reconstruction", RESPELT[1])
+    (tmp_path / "dive.csv").write_text(text)
+    assert glider("simulate", "plan.toml").stdout.startswith("SIMULATED FROM A RECONSTRUCTION: dive.csv")
+    (tmp_path / "dive.csv").write_text(text.replace(RESPELT[1], "guess"))
+    one_line_error(glider("simulate", "plan.toml"), "dive.csv", "line 2", "origin = 'guess'", "reconstruction")
+
+
 def test_bins_left_out_are_counted_and_named(glider_json: Callable[..., Any], tmp_path: Path) -> None:
     head = "depth_m,current_east_m_s,current_north_m_s"
     table(tmp_path / "adcp.csv", head, "0,0.1,0", "2,nan,0", "4,-32.768,0", "6,99,0", "8,,0", "10,0.2,0")

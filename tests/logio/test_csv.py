@@ -143,6 +143,12 @@ def test_a_table_parted_from_its_metadata_is_not_taken_for_more(
     assert log.origin == log["depth"].origin == read_as
 
 
+def test_an_origin_is_one_however_it_is_spelt(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("elapsed_s,depth_m, Origin\n0,1, Simulated \n")
+    reading = read([tmp_path / "a.csv"])
+    assert (reading.log.origin, reading.files[0].warnings) == ("simulated", ())
+
+
 def test_a_table_that_does_not_say_is_warned_of(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("elapsed_s,depth_m\n0,1\n")
     reading = read([tmp_path / "a.csv"])
