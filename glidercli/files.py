@@ -11,7 +11,7 @@ from typing import Any
 
 from glidercli.errors import InputError, OutputError
 
-__all__ = ["atomic", "check_not_inputs", "check_outputs", "read_toml", "readable_file"]
+__all__ = ["atomic", "check_not_inputs", "check_outputs", "metadata_path", "read_toml", "readable_file"]
 
 _LONGEST_NAME = 200
 """bytes; file systems take 255, and the name while writing and that of the metadata are longer."""
@@ -40,12 +40,22 @@ def read_toml(path: Path, what: str) -> dict[str, Any]:
         raise InputError(path, f"is not valid TOML: {error}") from None
 
 
+def metadata_path(table: Path) -> Path:
+    """Where the provenance of a CSV file stands."""
+    return table.with_name(table.name + "-metadata.json")
+
+
+def _written(paths: Collection[Path]) -> list[Path]:
+    """The files that outputs come to: themselves, and the metadata beside each table; standard output is none."""
+    files = [path for path in paths if str(path) != "-"]
+    return [*files, *(metadata_path(path) for path in files if path.suffix.lower() == ".csv")]
+
+
 def check_outputs(paths: Collection[Path], suffixes: Collection[str], force: bool) -> None:
-    """Refuse outputs that could not be written in the end, before any work is done.
+    """Refuse outputs that could not be written in the end, before any work is done; their metadata too.
 
     suffixes : allowed endings, lower case with the dot. The path "-" (standard output) always passes.
     """
-    seen = set()
     for path in paths:
         if str(path) == "-":
             continue
@@ -53,11 +63,12 @@ def check_outputs(paths: Collection[Path], suffixes: Collection[str], force: boo
             raise OutputError(path, f"unknown output {path.suffix or 'without ending'}; allowed: {' '.join(suffixes)}")
         if len(os.fsencode(path.name)) > _LONGEST_NAME:
             raise OutputError(path, f"the name is too long; at most {_LONGEST_NAME} bytes are allowed")
+    seen = set()
+    for path in _written(paths):
         if path.resolve() in seen:
             raise OutputError(path, "is named twice as output")
         seen.add(path.resolve())
-        if path.is_dir():
-            raise OutputError(path, "is a folder; a file name is needed")
+        _check_no_folder(path)
         if not path.parent.is_dir():
             raise OutputError(path, f"folder {path.parent} does not exist")
         if not os.access(path.parent, os.W_OK):
@@ -66,17 +77,23 @@ def check_outputs(paths: Collection[Path], suffixes: Collection[str], force: boo
             raise OutputError(path, "exists; --force replaces it")
 
 
+def _check_no_folder(path: Path) -> None:
+    if path.is_dir():
+        raise OutputError(path, "is a folder; a file name is needed")
+
+
 def check_not_inputs(outputs: Collection[Path], inputs: Collection[Path]) -> None:
     """Refuse to replace an input by what was made from it, whatever --force says."""
-    read = {path.resolve() for path in inputs}
-    for path in outputs:
-        if str(path) != "-" and path.resolve() in read:
+    read = {file.resolve() for path in inputs for file in (path, metadata_path(path))}
+    for path in _written(outputs):
+        if path.resolve() in read:
             raise OutputError(path, "is an input of this very command; another name is needed")
 
 
 @contextlib.contextmanager
 def atomic(path: Path, force: bool) -> Iterator[Path]:
     """A name beside ``path`` to write to; on success it becomes ``path``, on any failure it is removed."""
+    _check_no_folder(path)
     if path.exists() and not force:
         raise OutputError(path, "exists; --force replaces it")
     beside = path.with_name(f".{path.stem}.part-{os.getpid()}{path.suffix}")

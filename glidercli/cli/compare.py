@@ -52,7 +52,6 @@ def compare(
     from glidercli.cli.printing import json_text, say, warn
     from glidercli.compare import SUFFIXES, matching, write
     from glidercli.compare import compare as compared
-    from glidercli.compare.output import metadata_path
     from glidercli.errors import InputError, UsageError
     from glidercli.files import check_not_inputs, check_outputs
     from glidercli.provenance import provenance
@@ -67,7 +66,6 @@ def compare(
         raise UsageError(f"--channels: {error}") from error
     files = [path for path in output or [] if path != Path("-")]
     check_outputs(files, SUFFIXES, force)
-    check_outputs([metadata_path(path) for path in files if path.suffix.lower() == ".csv"], (".json",), force)
 
     facts = _facts_file(measured)
     inputs: list[Path] = []
@@ -82,6 +80,7 @@ def compare(
     else:
         against = _log(measured, inputs, quiet)
     logs = [_log(name, inputs, quiet) for name in simulated]
+    check_not_inputs(files, inputs)
     comparison = compared(
         against,
         logs,
@@ -93,7 +92,6 @@ def compare(
     )
     recorded = [run.side for run in comparison.runs if run.side.origin in ("measured", "derived")]
     warn([f"{side.name} is {side.origin}, and stands here as a simulation" for side in recorded], quiet)
-    check_not_inputs(files, inputs)
     record = provenance(inputs=dict.fromkeys(inputs), origin=comparison.origin)
     write(comparison, *files, provenance=record, force=force)
     for path in files:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from glidercli.cli.printing import say
@@ -25,14 +25,12 @@ def check_log_outputs(paths: Sequence[Path], force: bool, json: bool) -> None:
     check_outputs(paths, SUFFIXES, force)
 
 
-def write_log(log: Log, paths: Sequence[Path], inputs: Collection[Path], force: bool, quiet: bool) -> None:
-    """Write the log to every path, or to none; "-" is CSV on stdout. inputs : files that must not be replaced."""
-    from glidercli.files import check_not_inputs
+def write_log(log: Log, paths: Sequence[Path], force: bool, quiet: bool) -> None:
+    """Write the log to every path, or to none; "-" is CSV on stdout."""
     from glidercli.logio import write
     from glidercli.logio.csv_log import write_csv_stream
 
     files = [path for path in paths if path != _STDOUT]
-    check_not_inputs(files, inputs)
     write(log, *files, force=force)
     if _STDOUT in paths:
         write_csv_stream(log, sys.stdout)

@@ -38,7 +38,7 @@ def replay(
     for path in files:
         say(f"wrote {path}", quiet)
     if stdout := Path("-") in outputs:
-        write_log(played.log, [Path("-")], [], force, quiet)
+        write_log(played.log, [Path("-")], force, quiet)
     if json:
         print(json_text(played.document()))
     elif not stdout:

@@ -60,11 +60,12 @@ def simulate(
         every=every,
         rtol=rtol,
         equations=equations.value,
+        outputs=outputs,
     )
     origin = "simulated, from a reconstruction" if "reconstruction" in flown.log.metadata else "simulated"
     log = flown.log.with_metadata(provenance=provenance_json(inputs=flown.inputs, origin=origin))
     warn(flown.warnings, quiet)
-    write_log(log, outputs, flown.inputs, force, quiet)
+    write_log(log, outputs, force, quiet)
     if json:
         print(json_text(flown.document()))
     elif Path("-") not in outputs:

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 from glidercli.compare.document import document
 from glidercli.compare.facts import Facts
 from glidercli.errors import OutputError
-from glidercli.files import atomic
+from glidercli.files import atomic, metadata_path
 
 if TYPE_CHECKING:
     from glidercli.compare.comparison import Comparison
 
-__all__ = ["SUFFIXES", "metadata_path", "write"]
+__all__ = ["SUFFIXES", "write"]
 
 SUFFIXES = (".csv", ".json", ".png", ".svg", ".pdf")
 """Endings of the outputs that ``write`` makes."""
@@ -26,11 +26,6 @@ _FACTS = (
     "name", "quantity", "channel", "phase", "unit", "published", "tolerance", "simulated", "difference", "verdict",
     "place", "tolerance_reason", "given", "note", "reason",
 )  # fmt: skip
-
-
-def metadata_path(table: Path) -> Path:
-    """Where the provenance of a CSV stands."""
-    return table.with_name(table.name + "-metadata.json")
 
 
 def write(comparison: Comparison, *paths: Path, provenance: dict[str, Any], force: bool = False) -> None:

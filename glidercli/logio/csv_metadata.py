@@ -10,18 +10,14 @@ from typing import Any, get_args
 import numpy as np
 
 from glidercli.errors import InputError
+from glidercli.files import metadata_path
 from glidercli.log import Log, Origin
 from glidercli.origins import BOTH
 from glidercli.provenance import file_hash
 
-__all__ = ["metadata_path", "origin_word", "read_metadata", "stranger", "write_metadata"]
+__all__ = ["origin_word", "read_metadata", "stranger", "write_metadata"]
 
 _KINDS: dict[str, type] = {"origin": str, "metadata": dict, "channels": dict, "events": list}
-
-
-def metadata_path(path: Path) -> Path:
-    """Where the provenance of a CSV file stands."""
-    return path.with_name(path.name + "-metadata.json")
 
 
 def origin_word(origin: str, metadata: Mapping[str, Any], of_channels: Collection[str]) -> str:

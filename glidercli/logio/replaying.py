@@ -13,7 +13,6 @@ from glidercli.channels import CHANNELS
 from glidercli.errors import InputError, UsageError
 from glidercli.files import check_not_inputs, check_outputs
 from glidercli.log import Channel, Log
-from glidercli.logio.csv_metadata import metadata_path
 from glidercli.logio.reading import read
 from glidercli.logio.report import FileReport
 from glidercli.logio.writing import SUFFIXES, write
@@ -87,7 +86,6 @@ def replay(
     """
     targets = [Path(path) for path in outputs]
     check_outputs(targets, SUFFIXES, force)
-    check_outputs([metadata_path(path) for path in targets if path.suffix.lower() == ".csv"], (".json",), force)
     reading = read(paths, format)
     log = reading.log
     broken = [report for report in reading.files if report.error is not None]

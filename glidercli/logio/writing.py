@@ -6,10 +6,10 @@ import contextlib
 from pathlib import Path
 
 from glidercli.errors import OutputError
-from glidercli.files import atomic
+from glidercli.files import atomic, metadata_path
 from glidercli.log import Log
 from glidercli.logio.csv_log import write_csv
-from glidercli.logio.csv_metadata import metadata_path, write_metadata
+from glidercli.logio.csv_metadata import write_metadata
 from glidercli.provenance import provenance_json
 
 __all__ = ["SUFFIXES", "write"]

@@ -5,10 +5,12 @@ from __future__ import annotations
 import dataclasses
 import datetime
 import math
+from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from glidercli.errors import InputError, UsageError
+from glidercli.files import check_not_inputs
 from glidercli.vehicle.controls import check_controls
 from glidercli.vehicle.vehicle import Vehicle
 
@@ -84,6 +86,7 @@ def simulate(
     every: float = 1.0,
     rtol: float = 1e-8,
     equations: str = "full",
+    outputs: Collection[Path] = (),
 ) -> Simulation:
     """Fly a mission, or three held controls, from rest in the water, level.
 
@@ -97,9 +100,12 @@ def simulate(
     duration, every : s. start_depth : m. latitude : deg; sets gravity, 9.81 m/s2 without.
     rtol : relative tolerance of the integrator.
     equations : "full", or "paper": eq. (50) without the shear's own term, and the movable mass taken as unmoving.
+    outputs : files that the caller will write; checked before the flight.
 
     Raises
     ------
+    OutputError
+        An output is an input.
     InputError
         An input that cannot be used, or a vehicle that would only float.
     UsageError
@@ -138,6 +144,7 @@ def simulate(
         for row in leg.values:
             check_controls(craft, *row)
     inputs += [Path(item) for item in (ctd, adcp) if item] + controls_files
+    check_not_inputs(outputs, inputs)
     remade = [*ocean.reconstructed, *(f for f, leg in zip(controls_files, legs, strict=False) if leg.reconstructed)]
     length = _first(duration, plan.duration_s if plan else None, DEFAULT_DURATION)
     depth = _first(start_depth, plan.start_depth_m if plan else None, 0.0)

@@ -247,6 +247,24 @@ def test_a_table_that_lost_its_metadata_is_compared_as_derived(tmp_path: Path, l
     assert "parted.csv is derived, and stands here as a simulation" in glider(logs[0], parted).stderr
 
 
+def test_outputs_are_checked_with_their_metadata(tmp_path: Path, logs) -> None:
+    (tmp_path / "b.csv-metadata.json").mkdir()
+    before = set(tmp_path.iterdir())
+    for other in ("a.json", "b.csv-metadata.json"):
+        outputs = ("-o", tmp_path / "b.csv", "-o", tmp_path / other)
+        assert "b.csv-metadata.json: is " in failed(glider(*logs, *outputs, "--force"), 1)
+    assert set(tmp_path.iterdir()) == before
+    (tmp_path / "b.csv-metadata.json").rmdir()
+    assert "named twice" in failed(glider(*logs, *outputs), 1)
+
+
+def test_metadata_of_an_input_are_never_replaced(logs) -> None:
+    beside = logs[0].with_name(logs[0].name + "-metadata.json")
+    told = {"origin": "measured", "metadata": {}, "channels": {"depth": "measured"}, "events": []}
+    beside.write_text(json.dumps(told))
+    assert "input" in failed(glider(*logs, "-o", beside, "--force"), 1)
+
+
 def test_an_input_is_never_replaced(logs) -> None:
     before = logs[1].read_bytes()
     assert "input" in failed(glider(*logs, "-o", logs[1], "--force"), 1)

@@ -214,6 +214,14 @@ def test_water_that_would_overturn_is_doubted(glider_json: Callable[..., Any], t
     assert any("falls with depth by up to 2.00 kg/m3" in line for line in warnings)
 
 
+def test_an_input_as_output_is_refused_before_the_flight(glider: Run, tmp_path: Path) -> None:
+    head = "depth_m,current_east_m_s,current_north_m_s"
+    table(tmp_path / "adcp.csv", head, "0,0.1,0", "20,0.2,0")
+    absurd = ("--duration", "1e8", "--every", "0.001")  # refused itself, but later
+    done = glider("simulate", *CONTROLS, *absurd, "--adcp", "adcp.csv", "-o", "adcp.csv", "--force")
+    one_line_error(done, "adcp.csv", "input")
+
+
 def test_an_input_is_never_replaced(glider: Run, tmp_path: Path) -> None:
     head = "depth_m,current_east_m_s,current_north_m_s"
     path = table(tmp_path / "adcp.csv", head, "0,0.1,0", "20,0.2,0")
@@ -222,6 +230,15 @@ def test_an_input_is_never_replaced(glider: Run, tmp_path: Path) -> None:
     one_line_error(done, "adcp.csv", "input")
     assert path.read_bytes() == before
     assert [item.name for item in tmp_path.iterdir()] == ["adcp.csv"]
+
+
+@pytest.mark.parametrize("force", [(), ("--force",)])
+def test_metadata_that_cannot_be_written_stop_every_output(glider: Run, tmp_path: Path, force: tuple[str, ...]) -> None:
+    (tmp_path / "b.csv-metadata.json").mkdir()
+    outputs = ("-o", "a.mcap", "-o", "b.csv", "-o", "c.rrd")
+    done = glider("simulate", *CONTROLS, "--duration", "1e8", "--every", "0.001", *outputs, *force)
+    one_line_error(done, "b.csv-metadata.json", "is a folder")
+    assert [item.name for item in tmp_path.iterdir()] == ["b.csv-metadata.json"]
 
 
 def test_outputs_appear_all_or_none(glider: Run, tmp_path: Path) -> None:

@@ -254,6 +254,13 @@ def test_outputs_are_refused_before_any_is_written(tmp_path: Path, taken: str) -
     assert (tmp_path / taken).read_text() == "mine"
 
 
+def test_a_table_whose_metadata_cannot_be_written_leaves_no_other_output(tmp_path: Path) -> None:
+    (tmp_path / "b.csv-metadata.json").mkdir()
+    with pytest.raises(OutputError, match=r"metadata\.json: is a folder"):
+        write(depth_log(0, 3), *(tmp_path / name for name in ("a.mcap", "b.csv", "c.mcap")), force=True)
+    assert [path.name for path in tmp_path.iterdir()] == ["b.csv-metadata.json"]
+
+
 @pytest.mark.parametrize("name", ["a.csv", "a.mcap"])
 def test_every_output_carries_provenance(tmp_path: Path, name: str) -> None:
     write(depth_log(0, 3), tmp_path / name)
