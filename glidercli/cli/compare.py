@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -52,14 +51,15 @@ def compare(
     from glidercli.cli.printing import json_text, say, warn
     from glidercli.compare import SUFFIXES, matching, write
     from glidercli.compare import compare as compared
+    from glidercli.compare.align import MOST_OFFSET
     from glidercli.errors import InputError, UsageError
     from glidercli.files import check_not_inputs, check_outputs
     from glidercli.provenance import provenance
 
     if not max_gap > 0.0:
         raise InputError("--max-gap", f"{max_gap} s is not allowed; a positive time is needed")
-    if not math.isfinite(offset):
-        raise InputError("--offset", f"{offset} s is not allowed; a finite number is needed")
+    if not abs(offset) <= MOST_OFFSET:
+        raise InputError("--offset", f"{offset:g} s is not allowed; {-MOST_OFFSET:g} to {MOST_OFFSET:g} are")
     try:
         matching(channels or [])
     except InputError as error:

@@ -7,7 +7,6 @@ curves over each other. An offset in seconds comes on top of each. The shift is 
 from __future__ import annotations
 
 import dataclasses
-import math
 from typing import Literal, get_args
 
 import numpy as np
@@ -17,10 +16,13 @@ from glidercli.errors import InputError
 from glidercli.log import Channel, Log
 from glidercli.units import NANOSECOND
 
-__all__ = ["Alignment", "Method", "align", "shifted"]
+__all__ = ["MOST_OFFSET", "Alignment", "Method", "align", "shifted"]
 
 Method = Literal["none", "start", "xcorr"]
 """Ways to align two clocks."""
+
+MOST_OFFSET = 1e9
+"""s, some 30 years either way; times in ns leave their 64 bits at ten times as much."""
 
 MOST_STEPS = 2**18
 """Longest record, in common steps, that xcorr works on; the step grows with longer ones."""
@@ -44,15 +46,15 @@ def align(
 ) -> Alignment:
     """The alignment of a simulated log with a measured one.
 
-    offset : s, added to the simulated log's times after the method.
+    offset : s, at most MOST_OFFSET either way, added to the simulated log's times after the method.
     max_gap : s; xcorr leaves out stretches without depth samples longer than this.
 
-    Raises InputError for an unknown method, an offset that is not finite, or a log without the depth samples needed.
+    Raises InputError for an unknown method, an offset out of range, or a log without the depth samples needed.
     """
     if method not in get_args(Method):
         raise InputError("align", f"{method!r}; allowed: {', '.join(get_args(Method))}")
-    if not math.isfinite(offset):
-        raise InputError("offset", f"{offset} s; allowed: a finite number")
+    if not abs(offset) <= MOST_OFFSET:
+        raise InputError("offset", f"{offset:g} s; allowed: {-MOST_OFFSET:g} to {MOST_OFFSET:g}")
     if method == "none":
         return Alignment(method, offset, offset)
     least = 1 if method == "start" else 3

@@ -175,7 +175,9 @@ def test_wrong_usage(logs, options: tuple[str, ...]) -> None:
     assert options[0] in failed(glider(*logs, *options), 2)
 
 
-@pytest.mark.parametrize("options", [("--max-gap", "0"), ("--max-gap", "nan"), ("--offset", "inf")])
+@pytest.mark.parametrize(
+    "options", [("--max-gap", "0"), ("--max-gap", "nan"), ("--offset", "inf"), ("--offset", "1e12")]
+)
 def test_a_number_out_of_range_is_bad_input(logs, options: tuple[str, ...]) -> None:
     assert options[0] in failed(glider(*logs, *options), 1)
 
