@@ -9,14 +9,15 @@ from typing import Annotated, Any
 import typer
 
 from glidercli.cli.options import Debug, Equations, EquationsOption, Force, Json, Quiet, output_option
+from glidercli.errors import UsageError
 
 
 def simulate(
     mission: Annotated[
         str | None, typer.Argument(help="Mission: a TOML file or the name of a shipped one.", show_default=False)
     ] = None,
-    ctd: Annotated[Path | None, typer.Option(metavar="FILE", help="Cast of the water: .cnv or CSV.")] = None,
-    adcp: Annotated[Path | None, typer.Option(metavar="FILE", help="Current by depth: CSV.")] = None,
+    ctd: Annotated[list[Path] | None, typer.Option(metavar="FILE", help="Cast of the water: .cnv or CSV.")] = None,
+    adcp: Annotated[list[Path] | None, typer.Option(metavar="FILE", help="Current by depth: CSV.")] = None,
     net_buoyancy: Annotated[float | None, typer.Option(help="Held net buoyancy, kg, sinking positive.")] = None,
     mass_position: Annotated[float | None, typer.Option(help="Held position of the movable mass, m.")] = None,
     mass_rotation: Annotated[float | None, typer.Option(help="Held rotation of the movable mass, deg.")] = None,
@@ -44,6 +45,7 @@ def simulate(
     from glidercli.provenance import provenance_json
     from glidercli.simulation import simulate as fly
 
+    cast, current = _one("--ctd", ctd), _one("--adcp", adcp)
     outputs = output or []
     check_log_outputs(outputs, force, json)
     flown = fly(
@@ -52,8 +54,8 @@ def simulate(
         net_buoyancy=net_buoyancy,
         mass_position=mass_position,
         mass_rotation=None if mass_rotation is None else math.radians(mass_rotation),
-        ctd=ctd,
-        adcp=adcp,
+        ctd=cast,
+        adcp=current,
         duration=duration,
         start_depth=start_depth,
         latitude=latitude,
@@ -70,6 +72,13 @@ def simulate(
         print(json_text(flown.document()))
     elif Path("-") not in outputs:
         print(_summary(flown.document()))
+
+
+def _one(option: str, files: list[Path] | None) -> Path | None:
+    """The file of an option that may stand once."""
+    if files and len(files) > 1:
+        raise UsageError(f"{option} is given {len(files)} times; one file is allowed")
+    return files[0] if files else None
 
 
 def _summary(d: dict[str, Any]) -> str:
