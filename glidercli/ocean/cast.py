@@ -12,6 +12,7 @@ from glidercli.errors import InputError
 from glidercli.ocean import seawater
 from glidercli.ocean.cnv import is_cnv, parse_cnv
 from glidercli.ocean.downcast import DEEPEST_DBAR, SALINITY, TEMPERATURE, downcast
+from glidercli.ocean.profile import wide_gaps
 from glidercli.ocean.seabird import PRESSURE, samples
 from glidercli.ocean.source import left_out, listed, read_text
 from glidercli.ocean.table import Table, parse_table
@@ -143,9 +144,10 @@ def _from_cnv(path: Path, text: str, latitude: float | None) -> Cast:
     pressure, temperature = recorded.pressure_dbar[kept], recorded.temperature[kept]
     salinity = recorded.salinity[kept]
     absolute = _absolute_salinity(salinity, pressure, place)
+    depth = seawater.depth_from_pressure(pressure, place.used)
     computed = "depth" if file.first(*PRESSURE) else "pressure"
     return Cast(
-        depth=seawater.depth_from_pressure(pressure, place.used),
+        depth=depth,
         pressure_dbar=pressure,
         temperature=temperature,
         salinity=salinity,
@@ -156,7 +158,12 @@ def _from_cnv(path: Path, text: str, latitude: float | None) -> Cast:
         time_utc=file.time_utc,
         source=path,
         dropped=dropped,
-        warnings=(*warnings, *place.warnings(computed, True), *left_out(dropped, total, "samples")),
+        warnings=(
+            *warnings,
+            *place.warnings(computed, True),
+            *left_out(dropped, total, "samples"),
+            *wide_gaps(depth, "sample"),
+        ),
     )
 
 
@@ -190,7 +197,12 @@ def _from_table(table: Table, latitude: float | None) -> Cast:
         time_utc=(table.cells["time_utc"][0] or None) if "time_utc" in table else None,
         source=table.path,
         dropped=(),
-        warnings=(*place.warnings(missing, by_place), *warnings, *_doubts(salinity, density)),
+        warnings=(
+            *place.warnings(missing, by_place),
+            *warnings,
+            *_doubts(salinity, density),
+            *wide_gaps(depth, "sample"),
+        ),
         reconstructed=table.reconstructed,
     )
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
+from glidercli.ocean.profile import wide_gaps
 from glidercli.ocean.source import left_out, listed, read_text
 from glidercli.ocean.table import parse_table
 
@@ -89,6 +90,7 @@ def read_adcp(path: str | Path) -> CurrentProfile:
     if dropped and good.sum() > 1:
         widest = float(np.diff(depth[good]).max())
         warnings += (f"the current is interpolated between the bins kept, over up to {widest:g} m",)
+    warnings += wide_gaps(depth[good], "bin")
     if unknown:
         warnings += (f"columns not known and not used: {listed(unknown)}",)
     profile = (depth[good], east[good], north[good], up[good])

@@ -14,8 +14,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from glidercli.errors import InputError
 from glidercli.kernel import kernel
+from glidercli.ocean.source import listed
 
-__all__ = ["Profile", "cubic", "cubic_slope", "locate", "pchip"]
+__all__ = ["Profile", "cubic", "cubic_slope", "locate", "pchip", "wide_gaps"]
+
+
+_GAP_RATIO, _GAP_LEAST = 5.0, 5.0  # standard depths grow by less from step to step; m, below it little can hide
+_GAP_REACH = 5  # intervals to either side that tell what is usual
 
 
 class Profile(NamedTuple):
@@ -62,6 +67,23 @@ def pchip(depth: ArrayLike, values: ArrayLike) -> Profile:
 
         coefficients[:, :, known] = PchipInterpolator(z, y[:, known]).c
     return Profile(z, coefficients)
+
+
+def wide_gaps(depth: NDArray[np.float64], what: str) -> tuple[str, ...]:
+    """One line that names the gaps far wider than the intervals around them; none if there are none.
+
+    depth : (n,), m, increasing. what : "bin", "sample".
+    """
+    if len(depth) < 2:
+        return ()
+    steps = np.diff(depth)
+    padded = np.pad(steps, _GAP_REACH, constant_values=np.nan)
+    around = np.sort(np.lib.stride_tricks.sliding_window_view(padded, 2 * _GAP_REACH + 1), axis=1)  # NaN come last
+    middle = (np.isfinite(around).sum(axis=1) - 1) // 2
+    usual = np.take_along_axis(around, middle[:, np.newaxis], axis=1)[:, 0]
+    wide = np.flatnonzero((steps > _GAP_RATIO * usual) & (steps > _GAP_LEAST))
+    spans = tuple(f"{depth[i]:.1f} to {depth[i + 1]:.1f} m" for i in wide)
+    return (f"no {what} between {listed(spans, 5)}: interpolated over gaps far wider than usual",) if spans else ()
 
 
 @kernel

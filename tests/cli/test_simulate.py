@@ -206,6 +206,15 @@ def test_bins_left_out_are_counted_and_named(glider_json: Callable[..., Any], tm
     assert any("42 of 1014 samples left out" in line for line in cast)  # as counted from the file by hand
 
 
+def test_gaps_in_tables_are_warned_of(glider_json: Callable[..., Any], tmp_path: Path) -> None:
+    depths = [*range(0, 100, 10), *range(600, 700, 10)]
+    table(tmp_path / "c.csv", "depth_m,density_kg_m3", *(f"{z},{1025 + z / 200}" for z in depths))
+    table(tmp_path / "a.csv", "depth_m,current_east_m_s,current_north_m_s", *(f"{z},0.1,0" for z in depths))
+    flown = glider_json("simulate", *CONTROLS, "--duration", "20", "--ctd", "c.csv", "--adcp", "a.csv")
+    for name, what in (("c.csv", "sample"), ("a.csv", "bin")):
+        assert any(line.startswith(f"{name}: no {what} between 90.0 to 600.0 m") for line in flown["warnings"])
+
+
 @pytest.mark.parametrize("salinity", ["0.035", "35"])
 def test_salinity_in_kg_per_kg_is_doubted(glider_json: Callable[..., Any], tmp_path: Path, salinity: str) -> None:
     table(tmp_path / "c.csv", "depth_m,temperature_degC,salinity", f"0,10,{salinity}", f"100,9,{salinity}")

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from glidercli.errors import InputError
 from glidercli.kernel import compiled, kernel
-from glidercli.ocean.profile import Profile, cubic, cubic_slope, locate, pchip
+from glidercli.ocean.profile import Profile, cubic, cubic_slope, locate, pchip, wide_gaps
 
 ROUND_OFF = 1e-12  # a few operations in double precision on values of order ten
 
@@ -81,6 +81,31 @@ def test_slope_is_the_derivative_of_value(z):
     step = 1e-5
     difference = (value(profile, z + step, 0) - value(profile, z - step, 0)) / (2.0 * step)
     assert slope(profile, z, 0) == pytest.approx(difference, abs=1e-3)  # second derivative is below 10, jumps at knots
+
+
+# the levels of the World Ocean Atlas 2013 and of Levitus (1982)
+STANDARD = (*range(0, 100, 5), *range(100, 500, 25), *range(500, 2000, 50), *range(2000, 5501, 100))
+CLASSIC = (0, 10, 20, 30, 50, 75, 100, 125, 150, 200, 250, *range(300, 1500, 100), 1500, 1750, *range(2000, 5501, 500))
+
+
+@pytest.mark.parametrize(
+    ("depth", "spans"),
+    [
+        (STANDARD, ()),
+        (CLASSIC, ()),
+        ([3.0], ()),
+        ([0, 1000], ()),
+        (range(0, 1000, 8), ()),
+        ([0, 1, 1.2, 1.3, 5, 6], ()),  # under 5 m
+        ([*range(0, 100, 10), *range(700, 800, 10)], ("90.0 to 700.0 m",)),
+        ([0, 10, 20, 900], ("20.0 to 900.0 m",)),
+        ([0, 200, *range(201, 230), 300, *range(301, 330)], ("0.0 to 200.0 m", "229.0 to 300.0 m")),
+    ],
+)
+def test_gaps_far_wider_than_the_steps_around_them_are_named(depth, spans):
+    lines = wide_gaps(np.array(depth, dtype=float), "bin")
+    expected = f"no bin between {', '.join(spans)}: interpolated over gaps far wider than usual"
+    assert lines == ((expected,) if spans else ())
 
 
 def test_compiled_and_plain_agree():
