@@ -27,7 +27,8 @@ _CSV_COLUMNS = (
 )
 _EXPECTED = f"a CTD cast is a Sea-Bird .cnv file or a table with the columns {_CSV_COLUMNS}"
 _SALT = ("salinity", "absolute_salinity_g_kg", "conductivity_S_m")
-_USED = ("depth_m", "pressure_dbar", "temperature_degC", *_SALT, "density_kg_m3", "latitude_deg", "longitude_deg")
+_NEEDED = ("depth_m", "pressure_dbar", "temperature_degC", *_SALT, "density_kg_m3")
+_USED = (*_NEEDED, "latitude_deg", "longitude_deg")
 _CONDUCTIVITY = (0.0, 10.0)  # S/m; the saltiest warm sea has 7
 _DENSITY = (990.0, 1100.0)  # kg/m3 in situ: fresh at 45 degC to brine in the deepest trench
 _KG_PER_KG = (0.025, 0.045)  # ocean salinity in kg/kg, taken for practical
@@ -108,9 +109,10 @@ def read_ctd(path: str | Path, latitude: float | None = None) -> Cast:
 
     latitude : degrees north; used only where the file has none.
 
-    A .cnv file is a record in time: its last descent is taken (see downcast.py). A table is a profile already: its
-    rows must grow deeper, and every fault in it is an error. Density comes from temperature and salinity by TEOS-10
-    where both are there, else from the file. Nothing is interpolated here; between samples profile.py holds.
+    A .cnv file is a record in time: its last descent is taken (see downcast.py). A table is a profile already: a row
+    that lacks a value is left out and counted; the others must grow deeper, and any other fault is an error. Density
+    comes from temperature and salinity by TEOS-10 where both are there, else from the file. Nothing is interpolated
+    here; between samples profile.py holds.
 
     Raises
     ------
@@ -168,7 +170,9 @@ def _from_cnv(path: Path, text: str, latitude: float | None) -> Cast:
 
 
 def _from_table(table: Table, latitude: float | None) -> Cast:
-    """The profile of a plain table, every row of it."""
+    """The profile of a plain table, every row of it that lacks nothing."""
+    whole = table
+    table, dropped = _complete(whole)
     own_latitude = _constant(table, "latitude_deg", -90.0, 90.0)
     place = _Place(latitude if own_latitude is None else own_latitude, _constant(table, "longitude_deg", -180.0, 360.0))
     depth, pressure = _axes(table, place)
@@ -196,15 +200,31 @@ def _from_table(table: Table, latitude: float | None) -> Cast:
         longitude=place.longitude,
         time_utc=(table.cells["time_utc"][0] or None) if "time_utc" in table else None,
         source=table.path,
-        dropped=(),
+        dropped=dropped,
         warnings=(
+            *left_out(dropped, len(whole), "samples"),
             *place.warnings(missing, by_place),
             *warnings,
             *_doubts(salinity, density),
             *wide_gaps(depth, "sample"),
         ),
-        reconstructed=table.reconstructed,
+        reconstructed=whole.reconstructed,
     )
+
+
+def _complete(table: Table) -> tuple[Table, tuple[tuple[str, int], ...]]:
+    """The rows that lack nothing of the water, and what is left out, counted by the first column that a row lacks."""
+    kept = np.ones(len(table), dtype=bool)
+    dropped: list[tuple[str, int]] = []
+    for name in (name for name in _NEEDED if name in table):
+        lacking = table.lacking(name) & kept
+        if lacking.any():
+            dropped.append((f"without {name}", int(lacking.sum())))
+            kept &= ~lacking
+    if not kept.any():
+        reasons = ", ".join(f"{count} {reason}" for reason, count in dropped)
+        raise InputError(table.path, f"has no usable sample among {len(table)}: {reasons}; at least one is needed")
+    return table.rows(kept), tuple(dropped)
 
 
 def _axes(table: Table, place: _Place) -> tuple[Array, Array]:
@@ -266,8 +286,9 @@ def _absolute_salinity(salinity: Array, pressure: Array, place: _Place) -> Array
 
 
 def _constant(table: Table, column: str, low: float, high: float) -> float | None:
-    """Median of a column of positions, or None without it."""
-    return float(np.median(table.numbers(column, low, high))) if column in table else None
+    """Median of a column of positions, or None where none is told."""
+    told = table.rows(~table.lacking(column)) if column in table else ()
+    return float(np.median(told.numbers(column, low, high))) if told else None
 
 
 def _missing(table: Table, needed: str) -> InputError:

@@ -72,6 +72,16 @@ class Table:
             what = f"line {line}: {column} = {cell!r}, a number with a decimal point is needed"
             raise InputError(self.path, what) from None
 
+    def lacking(self, column: str) -> NDArray[np.bool_]:
+        """Where a column's cells are empty or "NaN", (n,); InputError for other text that is no number."""
+        return np.isnan(self.measured(column))
+
+    def rows(self, kept: NDArray[np.bool_]) -> Table:
+        """The table of some of its rows. kept : (n,)."""
+        chosen = np.flatnonzero(kept)
+        cells = {name: tuple(column[i] for i in chosen) for name, column in self.cells.items()}
+        return Table(self.path, tuple(self.lines[i] for i in chosen), cells)
+
     def increasing(self, column: str, low: float, high: float) -> Array:
         """A column, (n,), of numbers from low to high that grow from row to row; else InputError."""
         values = self.numbers(column, low, high)

@@ -247,6 +247,24 @@ def test_the_three_measures_of_salt_agree(write):
         assert cast.depth == pytest.approx([901.8572642972814], abs=1e-7)
 
 
+def test_a_row_that_lacks_a_value_is_left_out_and_counted(write):
+    text = TABLE + "100,,35,11,142\n,9,35,11,142\n110,NaN,,11,142\n120,9,nan,11,142\n,,,,\n200,8,35,11,142\n"
+    cast = read_ctd(write("cast.csv", text))
+    assert cast.depth.tolist() == [1.0, 50.0, 90.0, 200.0]
+    assert cast.dropped == (("without depth_m", 2), ("without temperature_degC", 2), ("without salinity", 1))
+    assert cast.records == 9
+    assert cast.warnings == (
+        "5 of 9 samples left out: 2 without depth_m, 2 without temperature_degC, 1 without salinity",
+    )
+
+
+def test_a_place_told_once_is_the_casts(write):
+    cast = read_ctd(write("cast.csv", TABLE.replace("9,35.1,11,142", "9,35.1,,nan")))
+    assert (cast.latitude, cast.longitude, len(cast.depth), cast.dropped) == (11.0, 142.0, 3, ())
+    cast = read_ctd(write("nowhere.csv", TABLE.replace(",11,142\n", ",,\n")))
+    assert (cast.latitude, cast.longitude) == (None, None)
+
+
 def test_a_density_at_odds_with_the_rest_is_named(write):
     cast = read_ctd(write("cast.csv", TABLE.replace("salinity", "salinity,density_kg_m3").replace(",35", ",35,1030")))
     assert any("density_kg_m3 differs from TEOS-10 by up to" in line for line in cast.warnings)
@@ -262,8 +280,6 @@ def test_a_misspelt_column_is_named(write):
     [
         (TABLE.replace("\n50,", "\n0.5,"), "line 3: depth_m = 0.5 comes after 1; a profile must grow deeper"),
         (TABLE.replace("\n50,", "\n1,"), "line 3: depth_m = 1 repeats 1"),
-        (TABLE.replace(",15,", ",,"), "line 3: temperature_degC = empty, allowed -3 to 45"),
-        (TABLE.replace(",15,", ",NaN,"), "line 3: temperature_degC = NaN, allowed -3 to 45"),
         (TABLE.replace(",15,", ",warm,"), "line 3: temperature_degC = 'warm', a number"),
         (
             TABLE.replace(",", ";").replace(";15;", ";15,5;"),
@@ -289,7 +305,8 @@ def test_a_misspelt_column_is_named(write):
             "depth_m,pressure_dbar,density_kg_m3\n0,0,1025\n100,10.1,1026\n",
             "line 3: pressure_dbar = 10.1 at depth_m = 100",
         ),
-        (TABLE + ",,,,\n", "line 5: latitude_deg = empty"),
+        ("depth_m,density_kg_m3\n1,\n,1025\n", "sample among 2: 1 without depth_m, 1 without density_kg_m3; at least"),
+        (TABLE.replace(",15,35.2", ",,salty"), "line 3: salinity = 'salty', a number"),
         (b"\x89PNG\r\n\x1a\n\0\0\0", "is not a text file; a CTD cast is a Sea-Bird .cnv file or a table"),
     ],
 )
