@@ -56,7 +56,7 @@ def _summary(d: dict[str, Any], kind_of_log: str, metadata: Mapping[str, str]) -
         lines += [f"    {warning}" for warning in f["warnings"] if warning != f.get("error")]
     lines.append(f"{'channel':<30} {'samples':>8} {'minimum':>12} {'maximum':>12}  origin")
     for c in d["channels"]:
-        low, high = ("-" if v is None else f"{v:.6g}" for v in (c["minimum"], c["maximum"]))
+        low, high = ("-" if v is None else f"{v:z.6g}" for v in (c["minimum"], c["maximum"]))
         lines.append(f"{c['name']:<30} {c['samples']:>8} {low:>12} {high:>12}  {c['origin']}")
     notes = {key: text for key, text in metadata.items() if key.endswith(("_note", "_zero"))}
     return lines + [f"{key.replace('_', ' ')}: {text}" for key, text in notes.items()]

@@ -90,14 +90,14 @@ def _summary(d: dict[str, Any]) -> str:
         f"{'maximum depth':<17}{d['max_depth_m']:.2f} m",
         f"{'distance':<17}{d['distance_m']:.1f} m over ground",
         f"{'energy':<17}{d['energy_j']:.1f} J lost to the water",
-        f"{'net buoyancy':<17}{d['final']['net_buoyancy_kg']:.3f} kg pumped, {d['net_buoyancy_in_water_kg']:.3f} kg in "
-        "the water at the end",
+        f"{'net buoyancy':<17}{d['final']['net_buoyancy_kg']:z.3f} kg pumped, {d['net_buoyancy_in_water_kg']:z.3f} kg "
+        "in the water at the end",
     ]
-    lines += [f"{e['name']:<17}{e['time_s']:.1f} s, {e['depth_m']:.2f} m" for e in d["events"]]
+    lines += [f"{e['name']:<17}{e['time_s']:.1f} s, {e['depth_m']:z.2f} m" for e in d["events"]]
     final = d["final"]
     lines += [
-        f"{'at the end':<17}pitch {final['pitch_deg']:.2f} deg, roll {final['roll_deg']:.2f} deg, heading "
-        f"{final['heading_deg']:.1f} deg, {final['speed_through_water_m_s']:.3f} m/s through water",
+        f"{'at the end':<17}pitch {final['pitch_deg']:z.2f} deg, roll {final['roll_deg']:z.2f} deg, heading "
+        f"{final['heading_deg']:z.1f} deg, {final['speed_through_water_m_s']:.3f} m/s through water",
         f"{'integrated in':<17}{d['wall_s']:.3f} s" + (f", {rate:,.0f} simulated s/s" if rate else ""),
     ]
     return "\n".join(lines)

@@ -26,7 +26,7 @@ def _run(comparison: Comparison, run: Run) -> list[str]:
     if isinstance(comparison.against, Facts):
         return _facts(comparison, comparison.against, run)
     clock = run.alignment
-    shift = f"clock of {run.side.name} shifted by {clock.shift:.3f} s (align {clock.method})" if clock else ""
+    shift = f"clock of {run.side.name} shifted by {clock.shift:z.3f} s (align {clock.method})" if clock else ""
     lines = [
         f"Compared {run.side} with {comparison.measured}; {shift}.",
         f"Errors are {run.side.name} less {comparison.measured.name}.",
@@ -66,7 +66,7 @@ def _facts(comparison: Comparison, facts: Facts, run: Run) -> list[str]:
 
 
 def _number(value: float | None) -> str:
-    return "-" if value is None else f"{value:.4g}"
+    return "-" if value is None else f"{value:z.4g}"
 
 
 def _table(head: Sequence[str], rows: Sequence[Sequence[str]], texts: int, left: Sequence[int] = ()) -> list[str]:

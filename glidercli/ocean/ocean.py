@@ -120,7 +120,7 @@ class Ocean:
             top, bottom = float(profile.depth[0]), float(profile.depth[-1])
             if given and (shallowest < top or deepest > bottom):
                 warnings.append(
-                    f"the flight spans {shallowest:.1f} to {deepest:.1f} m, the {name} {top:.1f} to {bottom:.1f} m; "
+                    f"the flight spans {shallowest:z.1f} to {deepest:.1f} m, the {name} {top:.1f} to {bottom:.1f} m; "
                     "its end values are held beyond"
                 )
         return warnings

@@ -65,7 +65,7 @@ def to_log(
         values["temperature"] = flight.column("temperature")
     if has_current:
         values["current_north"], values["current_east"] = flight.column("current_north"), flight.column("current_east")
-        values["current_up"] = -flight.column("current_down")
+        values["current_up"] = 0.0 - flight.column("current_down")  # -0.0 for none would show
     if place is not None:
         values["latitude"], values["longitude"] = _geodetic(values, place)
     undefined = {"angle_of_attack", "sideslip"}  # no flow, no angle: a vehicle at rest has neither

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -276,6 +277,17 @@ def test_the_net_buoyancy_in_the_water_is_told(glider_json: Callable[..., Any], 
     assert flown["net_buoyancy_in_water_kg"] == pytest.approx(
         expected, abs=1e-6
     )  # density is printed to the last digit
+
+
+def test_no_zero_is_negative(glider: Run, tmp_path: Path) -> None:
+    table(tmp_path / "c.csv", "depth_m,current_east_m_s,current_north_m_s", "5,0.5,0.1", "900,0.1,0.0")
+    done = glider(
+        "simulate", *CONTROLS[:4], "--mass-rotation", "0", "--duration", "9", "--adcp", "c.csv", "-o", "f.csv"
+    )
+    with (tmp_path / "f.csv").open() as stream:
+        assert {row["current_up_m_s"] for row in csv.DictReader(stream)} == {"0.0"}
+    for text in (done.stdout, done.stderr, glider("replay", "f.csv").stdout):
+        assert not re.search(r" -0(\.0*)?[ ,\n]", text), text
 
 
 def test_an_absurd_start_depth_is_refused(glider: Run) -> None:

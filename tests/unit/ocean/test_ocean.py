@@ -70,6 +70,7 @@ def test_a_flight_beyond_the_profiles_is_said_with_its_range(ctd, sheared):
         "the flight spans 12.0 to 40.0 m, the current profile 10.0 to 30.0 m; its end values are held beyond"
     ]
     assert len(ocean.beyond(0.0, 300.0)) == 2
+    assert "spans 0.0 to" in ocean.beyond(-1e-9, 40.0)[0]
 
 
 def test_a_cast_without_temperature_gives_the_reference(write):
