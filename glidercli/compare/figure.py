@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from glidercli.compare.comparison import Comparison, Run, Side
+    from glidercli.compare.comparison import Comparison, Side
 
 __all__ = ["figure", "save"]
 
@@ -178,11 +178,12 @@ def _clock(comparison: Comparison) -> tuple[int, str, float]:
 
 
 def _span(comparison: Comparison, measured: Log, names: list[str], zero: int, scale: float) -> tuple[float, float]:
-    """Ends of the time axis: those of the measured channels shown, or the simulated ones' where there is none."""
-    for logs in ([measured], [run.log for run in comparison.runs]):
-        shown = [log[name].time_ns for log in logs for name in names if name in log and len(log[name])]
-        if shown:
-            break
+    """Ends of the time axis: those of the samples compared, else of the measured or the simulated channels shown."""
+    runs = comparison.runs
+    compared = [run.residuals[name].time_ns for run in runs for name in names if name in run.residuals]
+    shown = [times for times in compared if len(times)]
+    for logs in ([measured], [run.log for run in runs]):
+        shown = shown or [log[name].time_ns for log in logs for name in names if name in log and len(log[name])]
     first, last = min(int(t[0]) for t in shown), max(int(t[-1]) for t in shown)
     margin = max(last - first, round(1.0 / NANOSECOND)) * 0.02
     return (first - zero - margin) * scale, (last - zero + margin) * scale
@@ -190,41 +191,42 @@ def _span(comparison: Comparison, measured: Log, names: list[str], zero: int, sc
 
 def _curves(axes: Axes, comparison: Comparison, name: str, zero: int, scale: float) -> None:
     """One channel of every log that has it."""
-    reference: Channel | None = None
+    added_up = isinstance(comparison.against, Facts)  # a published turn may be more than a circle
     if isinstance(comparison.against, Log) and name in comparison.against:
-        reference = comparison.against[name]
-        _line(axes, reference, table_values(reference), zero, scale, comparison.max_gap, MEASURED, "-", 1.6)
+        channel = comparison.against[name]
+        _line(axes, channel, _drawn_values(channel), zero, scale, comparison.max_gap, MEASURED, "-", 1.6)
     for number, run in enumerate(comparison.runs):
         if name in run.log and len(run.log[name]):
             channel = run.log[name]
-            values = table_values(channel)
-            if on_circle(name) and reference is not None and len(reference):
-                values = values + _turns(run, name, values[0])
-            colour, style = _look(number)
-            _line(axes, channel, values, zero, scale, comparison.max_gap, colour, style, 1.1)
+            values = table_values(channel) if added_up else _drawn_values(channel)
+            _line(axes, channel, values, zero, scale, comparison.max_gap, *_look(number), 1.1)
     axes.set_title(name.replace("_", " "), loc="left", pad=3)
-    axes.set_ylabel(_unit(name))
+    axes.set_ylabel("deg, turns added up" if added_up and name == "heading" else _unit(name))
     if name in ("depth", "down", "pressure"):
         axes.invert_yaxis()
 
 
-def _turns(run: Run, name: str, fallback: float) -> float:
-    """Whole turns, deg, that bring the simulated curve beside the measured one where they are first compared."""
-    if name not in run.residuals or not len(run.residuals[name].error):
-        return -360.0 * round(fallback / 360.0)
-    both = run.residuals[name]
-    return 360.0 * float(np.round((both.measured[0] + both.error[0] - both.simulated[0]) / 360.0))
+def _drawn_values(channel: Channel) -> NDArray[np.float64]:
+    """Values in the table's unit; a heading from 0 to 360 deg, whatever its log's custom."""
+    values = channel.values * CHANNELS[channel.name].factor
+    return values % 360.0 if channel.name == "heading" else values
 
 
 def _line(
     axes: Axes, channel: Channel, values: NDArray[np.float64], zero: int, scale: float, max_gap: float, colour: str,
     style: Any, width: float,
 ) -> None:  # fmt: skip
-    """A line through the samples, broken where they are further apart than max_gap and than usual; few get dots."""
+    """A line through the samples; few get dots.
+
+    It is broken where they are further apart than max_gap, s, and than usual, and where an angle goes round.
+    """
     time = (channel.time_ns - zero) * scale
     steps = np.diff(channel.time_ns) * NANOSECOND
     usual = float(np.median(steps)) if len(steps) else 0.0
-    breaks = np.flatnonzero(steps > max(max_gap, 3.0 * usual)) + 1
+    apart = steps > max(max_gap, 3.0 * usual)
+    if on_circle(channel.name):
+        apart |= np.abs(np.diff(values)) > 180.0
+    breaks = np.flatnonzero(apart) + 1
     axes.plot(
         np.insert(time, breaks, np.nan), np.insert(values, breaks, np.nan), color=colour, linestyle=style,
         linewidth=width, marker="." if len(time) <= 60 else "", markersize=3.0,

@@ -45,11 +45,31 @@ def test_the_error_drawn_is_simulated_less_measured() -> None:
     assert curve.get_ydata() == pytest.approx(np.full(len(T), 2.0), abs=1e-9)  # rounding alone
 
 
-def test_a_heading_past_north_has_no_jump_and_lies_beside_the_measured() -> None:
+def test_a_heading_is_drawn_from_0_to_360_and_broken_at_north() -> None:
     drawing = figure(compare(flight(), flight("simulated", 15.0)))
-    measured, simulated = drawing.axes[4].get_lines()
-    assert np.abs(np.diff(simulated.get_ydata())).max() == pytest.approx(0.5, abs=1e-9)  # 0.1 deg/s every 5 s
-    assert simulated.get_ydata() - measured.get_ydata() == pytest.approx(np.full(len(T), 15.0), abs=1e-9)
+    for line, start in zip(drawing.axes[4].get_lines(), (350.0, 5.0), strict=True):
+        heading = line.get_ydata()
+        assert np.nanmin(heading) >= 0.0
+        assert np.nanmax(heading) < 360.0
+        assert heading[0] == pytest.approx(start, abs=1e-9)
+        steps = np.abs(np.diff(heading))
+        assert np.nanmax(steps) == pytest.approx(0.5, abs=1e-9)  # 0.1 deg/s every 5 s
+        assert np.isnan(heading).sum() == (start > 180.0)  # one passage of north, at the first flight's 100 s
+    assert drawing.axes[5].get_lines()[-1].get_ydata() == pytest.approx(np.full(len(T), 15.0), abs=1e-9)
+
+
+def test_turns_are_added_up_beside_published_ones() -> None:
+    facts = read_facts(Path(__file__).with_name("trial.toml"))
+    panel = figure(compare(facts, flight("simulated", 5.0))).axes[2]
+    heading = panel.get_lines()[0].get_ydata()
+    assert heading[-1] - heading[0] == pytest.approx(200.0, abs=1e-9)
+    assert "turns added up" in panel.get_ylabel()
+
+
+def test_the_time_axis_is_that_of_the_part_compared() -> None:
+    short = flight("simulated").sliced(None, flight().start_ns + 500 * 10**9)
+    for axes in figure(compare(flight(), short)).axes:
+        assert axes.get_xlim() == pytest.approx((-0.02 * 495.0, 1.02 * 495.0), abs=1e-6)  # its last sample; 2 % margin
 
 
 def test_lines_are_broken_at_gaps() -> None:
