@@ -1,12 +1,7 @@
-"""What does a comparison look like? One panel per channel, both sides overlaid, the error beneath; or published bands.
-
-The colours are those of Okabe and Ito, told apart by readers of every colour vision and, by line style, in grey print.
-Files are the same bytes for the same comparison: no dates, no random identifiers.
-"""
+"""What does a comparison look like? A panel a channel, both sides overlaid, the error beneath; or published bands."""
 
 from __future__ import annotations
 
-import contextlib
 import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glidercli import pictures
 from glidercli.channels import CHANNELS
 from glidercli.compare.bands import BAND, draw_facts
 from glidercli.compare.errors import on_circle, table_values
@@ -36,53 +32,23 @@ PANELS = ("depth", "pitch", "roll", "heading", "mass_position", "mass_rotation")
 MOST_PANELS = 8
 """Panels that stay legible on one page; a figure shows the first ones and says how many it leaves out."""
 
-WIDTH = 7.2
-"""inch, the width of a page's text."""
-
 MEASURED = "#000000"
-SIMULATED = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+SIMULATED = pictures.COLOURS
 STYLES: tuple[Any, ...] = ("-", (0, (4, 1.5)), "-.", ":")
 
 _FOOT = 120
 """Characters of a line at the foot."""
 
-_STYLE: dict[str, Any] = {
-    "font.family": "DejaVu Sans", "font.size": 7.5, "axes.titlesize": 8, "axes.labelsize": 7.5, "legend.fontsize": 7.5,
-    "xtick.labelsize": 7, "ytick.labelsize": 7, "axes.linewidth": 0.6, "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6, "axes.grid": True, "grid.color": "#DDDDDD", "grid.linewidth": 0.5, "axes.axisbelow": True,
-    "svg.hashsalt": "glidercli", "pdf.fonttype": 42, "axes.formatter.useoffset": False,
-    "axes.unicode_minus": True, "path.simplify": True,
-}  # fmt: skip
-
 
 def figure(comparison: Comparison) -> Figure:
     """The comparison as a matplotlib figure; drawn without a display."""
-    import matplotlib
-
-    with _defaults(matplotlib):
+    with pictures.drawing():
         return _drawn(comparison)
 
 
 def save(comparison: Comparison, path: Path, description: str) -> None:
     """Write the figure; the ending of ``path`` picks PNG, SVG or PDF; ``description`` is kept in its metadata."""
-    import matplotlib
-
-    metadata: dict[str, dict[str, Any]] = {
-        ".png": {"Description": description},
-        ".svg": {"Description": description, "Date": None},
-        ".pdf": {"Subject": description, "CreationDate": None, "ModDate": None},
-    }
-    kind = path.suffix.lower()
-    with _defaults(matplotlib):
-        _drawn(comparison).savefig(path, format=kind[1:], dpi=200, metadata=metadata[kind])
-
-
-@contextlib.contextmanager
-def _defaults(matplotlib: Any) -> Any:
-    """Matplotlib's own settings with ours on top, whatever the user's file says; restored afterwards."""
-    own = {key: value for key, value in matplotlib.rcParamsDefault.items() if not key.startswith(("backend", "date."))}
-    with matplotlib.rc_context({**own, **_STYLE}):
-        yield
+    pictures.save(lambda: _drawn(comparison), path, description)
 
 
 def _drawn(comparison: Comparison) -> Figure:
@@ -100,7 +66,7 @@ def _drawn(comparison: Comparison) -> Figure:
     remarks = _remarks(comparison, left_out)
     foot = 0.45 + 0.13 * (len(remarks) + (measured is None))  # facts may add a line on those not drawn
     height = head + rows * panel + foot
-    drawing = Figure(figsize=(WIDTH, height))
+    drawing = Figure(figsize=(pictures.WIDTH, height))
     grid = drawing.add_gridspec(
         rows, columns, left=0.1, right=0.985, top=1.0 - head / height, bottom=foot / height,
         hspace=0.24 if measured is not None else 0.3, wspace=0.28,

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import OutputError
-from glidercli.files import atomic
+from glidercli.files import atomic, metadata_path
 from glidercli.pictures import PICTURES, save
 
 if TYPE_CHECKING:
@@ -75,8 +75,7 @@ def write(answer: Answer, *paths: Path, record: Mapping[str, Any], force: bool =
             elif kind == ".json":
                 part.write_text(_json({**answer.document(), "provenance": record}), encoding="utf-8")
             elif kind == ".csv":
-                beside = path.with_name(path.name + "-metadata.json")
-                metadata = all_or_none.enter_context(atomic(beside, force))
+                metadata = all_or_none.enter_context(atomic(metadata_path(path), force))
                 metadata.write_text(_json(record), encoding="utf-8")
                 with part.open("w", encoding="utf-8", newline="") as stream:
                     rows = csv.writer(stream, lineterminator="\n")
