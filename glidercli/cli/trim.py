@@ -205,7 +205,7 @@ def _sweep(vehicle: str, pins: dict[str, float], texts: list[str], form: Equatio
     from glidercli.trim.output import Answer, rows_of
     from glidercli.trim.pins import QUANTITIES
     from glidercli.trim.stability import modes
-    from glidercli.trim.sweep import axis
+    from glidercli.trim.sweeping import axis
 
     axes = tuple(axis(text) for text in texts)
     found = sweep(vehicle, axes, equations=form.value, linearize=linearize, **pins)
@@ -234,8 +234,8 @@ def _polar(vehicle: str, pins: dict[str, float], journey: dict[str, float | None
     from glidercli.trim import polar
     from glidercli.trim.output import Answer, rows_of
     from glidercli.trim.pins import spelled
-    from glidercli.trim.polar import BEST, Journey
     from glidercli.trim.polar_figure import figure
+    from glidercli.trim.polars import BEST, Journey
 
     others = [spelled(name) for name in pins if name != "net_buoyancy"]
     if others:

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
     from glidercli.model.parameters import Parameters
     from glidercli.ocean.water import Water
-    from glidercli.trim.polar import Journey, Polar
+    from glidercli.trim.polars import Journey, Polar
     from glidercli.trim.recursion import Recursion
-    from glidercli.trim.sweep import Axis, TrimMap
+    from glidercli.trim.sweeping import Axis, TrimMap
 
 __all__ = ["Trim", "polar", "sweep", "trim", "trims", "trims_by_recursion"]
 
@@ -91,7 +91,7 @@ def sweep(
     vehicle, equations, pins : as for ``trims``. axes : names and values, SI and rad. linearize : whether the linear
     model of each is wanted. Raises as ``trims`` does; InputError also for more than a million points.
     """
-    from glidercli.trim.sweep import trims_over
+    from glidercli.trim.sweeping import trims_over
 
     craft, p, water = _setting(vehicle, equations)
     return trims_over(tuple(axes), pins, craft, equations, water, p, linearize=linearize)
@@ -109,8 +109,8 @@ def polar(
     net_buoyancy : kg; without one, five shares of the largest to either side. journey : the current against the
     vehicle and the power besides the pump's; none by default. Raises InputError for what no vehicle can have.
     """
-    from glidercli.trim.polar import Journey
-    from glidercli.trim.polar import polar as of
+    from glidercli.trim.polars import Journey
+    from glidercli.trim.polars import polar as of
 
     craft, p, water = _setting(vehicle, equations)
     return of(craft, net_buoyancy, journey or Journey(), equations, water, p)

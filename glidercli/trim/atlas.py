@@ -83,7 +83,7 @@ def atlas(actuators: Actuators, printed: bool, water: Water, p: Parameters) -> A
     kept = _kept(extremes, printed, water, p)
     if kept is not None and kept.exists():
         unusable = contextlib.suppress(OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile)
-        with unusable, np.load(kept) as file:
+        with unusable, kept.open("rb") as stream, np.load(stream) as file:
             return Atlas(file["trims"], file["corners"], file["places"])
     made = _made(extremes, printed, water, p)
     if kept is not None:

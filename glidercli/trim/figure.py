@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from glidercli.errors import UsageError
 from glidercli.pictures import COLOURS, WIDTH
 from glidercli.trim.pins import QUANTITIES
-from glidercli.trim.sweep import Axis, TrimMap
+from glidercli.trim.sweeping import Axis, TrimMap
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

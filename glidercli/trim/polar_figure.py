@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from glidercli.pictures import COLOURS, WIDTH
-from glidercli.trim.polar import Journey, Polar
+from glidercli.trim.polars import Journey, Polar
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
