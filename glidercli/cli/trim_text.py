@@ -113,6 +113,7 @@ _POINTS = (
     ("best_glide", "best glide"),
     ("fastest", "fastest"),
     ("least_energy", "least energy per kilometre made good"),
+    ("holds_station", "least power that holds station"),
 )
 
 
@@ -121,11 +122,11 @@ def best_text(polar: Mapping[str, Any], current: float) -> str:
     lines = []
     for way, best in polar.items():
         lines.append(f"{way}")
-        for key, title in _POINTS:
+        for key, title in _POINTS if current > 0.0 else _POINTS[:-1]:
             lines.append(f"  {title}")
             one = best[key]
             if one is None:
-                lines.append(f"    none: {best['why_no_least_energy']}")
+                lines.append(f"    none: {best['why_none']}")
                 continue
             rows = [
                 ("net buoyancy", f"{one['net_buoyancy_kg']:.4f} kg"),
@@ -138,6 +139,7 @@ def best_text(polar: Mapping[str, Any], current: float) -> str:
             ]
             if current:
                 rows.append(("made good", f"{one['made_good_m_s']:.4f} m/s against {current:g} m/s"))
+            rows.append(("power", f"{one['power_w']:.3f} W"))
             if one["energy_per_km_j"] is not None:
                 rows.append(("energy", f"{one['energy_per_km_j'] / 1000.0:.3f} kJ per kilometre made good"))
             rows.append(("stable", "yes" if one["stable"] else "no"))

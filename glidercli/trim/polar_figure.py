@@ -18,6 +18,7 @@ _MARKS = (
     ("best_glide", "o", "best glide"),
     ("fastest", "^", "fastest"),
     ("least_energy", "*", "least energy per km made good"),
+    ("holds_station", "s", "holds station"),
 )
 
 
@@ -63,5 +64,5 @@ def figure(found: Polar, journey: Journey, name: str) -> Figure:
     left.set_xlim(left=0.0)
     right.margins(y=0.08)
     handles, labels = left.get_legend_handles_labels()
-    sheet.legend(handles, labels, loc="lower right", ncols=4, frameon=False, bbox_to_anchor=(0.995, 0.03))
+    sheet.legend(handles, labels, loc="lower right", ncols=5, frameon=False, bbox_to_anchor=(0.995, 0.03))
     return sheet

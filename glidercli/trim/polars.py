@@ -51,13 +51,16 @@ class Best(NamedTuple):
     """Greatest horizontal speed."""
     least_energy: int | None
     """Least energy per kilometre made good."""
+    holds_station: int | None
+    """Least power that is not carried back by the current; None without a current."""
     why_none: str
-    """Why there is no least energy; empty where there is."""
+    """Why there is no least energy, or no holding station; empty where there is."""
 
 
 class Polar(NamedTuple):
-    """table : the columns of ``Trim.document``, then made_good_m_s and energy_per_km_j; a row each glide. curve (n,) :
-    the curve of each row, BEST for the best points that stand after the curves. best : by "dive" and "climb"."""
+    """table : the columns of ``Trim.document``, then made_good_m_s, power_w and energy_per_km_j; a row each glide.
+    curve (n,) : the curve of each row, BEST for the best points that stand after the curves. best : by "dive", "climb".
+    """
 
     table: dict[str, NDArray[Any]]
     curve: NDArray[np.int64]
@@ -72,7 +75,8 @@ class Polar(NamedTuple):
                 "best_glide": None if best.best_glide is None else rows[best.best_glide],
                 "fastest": None if best.fastest is None else rows[best.fastest],
                 "least_energy": None if best.least_energy is None else rows[best.least_energy],
-                "why_no_least_energy": best.why_none,
+                "holds_station": None if best.holds_station is None else rows[best.holds_station],
+                "why_none": best.why_none,
             }
             for way, best in self.best.items()
         }
@@ -107,15 +111,15 @@ def polar(
         chosen, why = _best(_glides(buoyancies, 10 * _FINE, craft, water, p), journey, craft, water)
         kept = [x for x in chosen if x is not None]
         places = iter(range(used, used + len(kept)))
-        glide, fastest, cheapest = (None if x is None else next(places) for x in chosen)
-        best[way] = Best(glide, fastest, cheapest, why)
+        glide, fastest, cheapest, station = (None if x is None else next(places) for x in chosen)
+        best[way] = Best(glide, fastest, cheapest, station, why)
         used += len(kept)
         parts.append(np.array(kept).reshape(-1, 9))
         numbers.append(np.full(len(kept), BEST))
     x = np.concatenate(parts)
     table = columns(x, np.zeros(len(x), np.int64), craft, water, p, runner(len(x)), equations=equations)
-    table["made_good_m_s"], table["energy_per_km_j"] = _cost(x, journey, water)
-    warnings = [f"{way}: no least energy: {one.why_none}" for way, one in best.items() if one.why_none]
+    table["made_good_m_s"], table["power_w"], table["energy_per_km_j"] = _cost(x, journey, water)
+    warnings = [f"{way}: {one.why_none}" for way, one in best.items() if one.why_none and journey.current > 0.0]
     return Polar(table, np.concatenate(numbers), best, warnings)
 
 
@@ -142,8 +146,8 @@ def _glides(buoyancies: Array, count: int, craft: Vehicle, water: Water, p: Para
     return np.asarray(x[flies])
 
 
-def _cost(x: Array, journey: Journey, water: Water) -> tuple[Array, Array]:
-    """Speed made good, m/s, and energy per kilometre made good, J, infinite where nothing is made good.
+def _cost(x: Array, journey: Journey, water: Water) -> tuple[Array, Array, Array]:
+    """Speed made good, m/s, power, W, and energy per kilometre made good, J, infinite where nothing is made good.
 
     Power is m_b g w / efficiency + hotel power, w the vertical speed.
     """
@@ -151,30 +155,34 @@ def _cost(x: Array, journey: Journey, water: Water) -> tuple[Array, Array]:
     made_good = x[:, 0] * np.cos(path) - journey.current
     power = -x[:, 8] * water.gravity * x[:, 0] * np.sin(path) / journey.pump_efficiency + journey.hotel_power
     with np.errstate(divide="ignore"):
-        return made_good, np.where(made_good > 0.0, 1000.0 * power / np.maximum(made_good, 0.0), np.inf)
+        return made_good, power, np.where(made_good > 0.0, 1000.0 * power / np.maximum(made_good, 0.0), np.inf)
 
 
 def _best(x: Array, journey: Journey, craft: Vehicle, water: Water) -> tuple[list[Array | None], str]:
-    """Best glide, fastest and cheapest of glides x within the limits, and why there is no cheapest."""
+    """What ``Best`` names of glides x, those within the limits, and why some is missing."""
     x = x[within_limits(x, craft)]
     if not len(x):
-        return [None, None, None], f"no glide lies within the limits of {craft.name}"
+        return [None] * 4, f"no glide lies within the limits of {craft.name}"
     path = np.abs(x[:, 5] - x[:, 1])
-    made_good, energy = _cost(x, journey, water)
+    made_good, power, energy = _cost(x, journey, water)
     strongest = np.abs(x[:, 8]) >= np.abs(x[:, 8]).max() * (1.0 - 1e-9)
     chosen: list[Array | None] = [
         x[int(np.where(strongest, path, np.inf).argmin())],
         x[int(made_good.argmax())],
         x[int(energy.argmin())],
+        x[int(np.where(made_good >= 0.0, power, np.inf).argmin())] if journey.current > 0.0 else None,
     ]
     if not np.isfinite(energy.min()):
-        chosen[2] = None
+        chosen[2] = chosen[3] = None
         fastest = made_good.max() + journey.current
         return (
             chosen,
-            f"nothing is made good against {journey.current:g} m/s: the fastest glide makes {fastest:.3f} m/s",
+            f"nothing is made good against {journey.current:g} m/s, the fastest glide makes {fastest:.3f} m/s",
         )
     if len(np.unique(x[:, 8])) > 1 and journey.current <= 0.0 and journey.hotel_power == 0.0:
         chosen[2] = None
-        return chosen, "without a current or hotel power the slowest glide is the cheapest; give one, or a net buoyancy"
+        return chosen, (
+            "without a current or hotel power the slowest glide costs the least energy; give one of them, or a net "
+            "buoyancy"
+        )
     return chosen, ""

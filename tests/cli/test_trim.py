@@ -353,8 +353,12 @@ def test_polar_against_a_current(glider: Run, glider_json: Callable[..., Any]) -
     assert cheapest["made_good_m_s"] == pytest.approx(cheapest["horizontal_speed_m_s"] - 0.2)
     power = cheapest["net_buoyancy_kg"] * 9.81 * cheapest["vertical_speed_m_s"] + 1.0
     assert cheapest["energy_per_km_j"] == pytest.approx(1000 * power / cheapest["made_good_m_s"])
+    station = dive["holds_station"]
+    assert station["made_good_m_s"] >= 0.0
+    assert station["made_good_m_s"] == pytest.approx(0.0, abs=0.005)  # a step of the search in net buoyancy: 0.25 %
+    assert station["power_w"] < cheapest["power_w"]
     strong = glider_json("trim", "--polar", "--current", "2", "--quiet")["polar"]["dive"]
     assert strong["least_energy"] is None
-    assert "2 m/s" in strong["why_no_least_energy"]
+    assert "2 m/s" in strong["why_none"]
     one_line_error(glider("trim", *PINS, "--current", "0.2"), "--current", "--polar", code=2)
     one_line_error(glider("trim", "--polar", "--current", "nan"), "current")
