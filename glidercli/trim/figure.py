@@ -84,7 +84,7 @@ def _sheet(rows: int, title: str, remarks: list[str]) -> tuple[Figure, Any]:
     """A figure of two columns with a title and remarks at its foot, and its grid."""
     from matplotlib.figure import Figure
 
-    head, foot = 0.36, 0.5 + 0.14 * len(remarks)
+    head, foot = 0.52, 0.5 + 0.14 * len(remarks)
     height = head + 2.15 * rows + foot
     sheet = Figure(figsize=(WIDTH, height))
     sheet.text(0.01, 1.0 - 0.06 / height, title, va="top", fontsize=8.5, weight="bold")

@@ -166,16 +166,17 @@ def _warnings(
         reasons = "; ".join(f"{n} {reason}" for reason, n in Counter(missing.values()).most_common())
         told.append(f"{len(missing)} of {points} points have no trim: {reasons}")
     fitted = craft.hydrodynamics.fitted_angle
+    first = solution == 1
     for mask, what in (
         (~table["within_limits"], f"are beyond the limits of {craft.name}"),
         (~table["stable"], "are not stable"),
         (np.abs(x[:, 1]) > fitted, f"have an angle of attack beyond the fitted {fitted / DEGREE:g} deg"),
         (np.abs(x[:, 2]) > fitted, f"have a sideslip beyond the fitted {fitted / DEGREE:g} deg"),
     ):
-        if mask.any():
-            told.append(f"{int(mask.sum())} of {len(x)} trims {what}")
-    if solution.max() > 1:
-        told.append(f"{int((solution == 2).sum())} points have several trims; the first-ranked is solution 1")
+        if mask[first].any():
+            told.append(f"{int(mask[first].sum())} of {int(first.sum())} first-ranked trims {what}")
+    if not first.all():
+        told.append(f"{int((solution == 2).sum())} points have further trims, ranked behind: solution 2 and above")
     return told
 
 
