@@ -27,8 +27,9 @@ _STYLE: dict[str, Any] = {
     "font.family": "DejaVu Sans", "font.size": 7.5, "axes.titlesize": 8, "axes.labelsize": 7.5, "legend.fontsize": 7.5,
     "xtick.labelsize": 7, "ytick.labelsize": 7, "axes.linewidth": 0.6, "xtick.major.width": 0.6,
     "ytick.major.width": 0.6, "axes.grid": True, "grid.color": "#DDDDDD", "grid.linewidth": 0.5, "axes.axisbelow": True,
-    "hatch.color": "#666666", "hatch.linewidth": 0.5, "svg.hashsalt": "glidercli", "pdf.fonttype": 42, "axes.formatter.useoffset": False,
-    "axes.unicode_minus": True, "path.simplify": True,
+    "svg.hashsalt": "glidercli", "pdf.fonttype": 42, "axes.formatter.useoffset": False,
+    "axes.unicode_minus": True, "path.simplify": True, "hatch.color": "#666666",
+    "hatch.linewidth": 0.5,
 }  # fmt: skip
 
 
