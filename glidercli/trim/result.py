@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from glidercli.errors import NoSolutionError
 from glidercli.frames import Vector, dot, down_in_body
-from glidercli.kernel import kernel
+from glidercli.kernel import kernel, warmed
 from glidercli.model.hydrodynamics import velocity_from_flow
 from glidercli.model.parameters import Parameters, symmetric
 from glidercli.ocean.water import Water
@@ -150,7 +150,7 @@ def trim_of(
     if x[7] == 0.0 and symmetric(p) and max(abs(x[2]), abs(x[3]), abs(x[4])) < 1e-9:
         x = (x[0], x[1], 0.0, 0.0, 0.0, x[5], x[6], 0.0, x[8])  # by symmetry; Newton leaves rounding there
     speed, alpha, beta, omega3, phi, theta, rrx, gamma, mb = x
-    linear = linearised(x, water, p)
+    linear = warmed(linearised)(x, water, p)
     growth = growth_rate(linear)
     vertical, horizontal = speeds(speed, alpha, beta, phi, theta)
     along = radius_speed(x, equations == "paper")

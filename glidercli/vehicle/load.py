@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
@@ -18,6 +19,7 @@ __all__ = ["load_vehicle", "shipped_vehicles"]
 _DATA = Path(__file__).parent / "data"
 
 
+@functools.cache
 def shipped_vehicles() -> dict[str, Path]:
     """File of each shipped vehicle, by name."""
     return {path.stem: path for path in sorted(_DATA.glob("*.toml"))}
@@ -35,11 +37,20 @@ def load_vehicle(name_or_path: str | Path) -> Vehicle:
     shipped = shipped_vehicles()
     text = str(name_or_path)
     if text in shipped:
-        path = shipped[text]
-    elif Path(text).suffix == "" and not Path(text).exists():
+        return _shipped(shipped[text])
+    if Path(text).suffix == "" and not Path(text).exists():
         raise InputError(text, f"is no vehicle; shipped are {', '.join(shipped)}, or give a .toml file")
-    else:
-        path = Path(text)
+    return _read(Path(text))
+
+
+@functools.cache
+def _shipped(path: Path) -> Vehicle:
+    """A shipped vehicle; its file does not change while the program runs."""
+    return _read(path)
+
+
+def _read(path: Path) -> Vehicle:
+    """The vehicle of a file."""
     given = read_toml(path, "a vehicle")
     try:
         return TypeAdapter(Vehicle).validate_python(given, context={"file": str(path)})
