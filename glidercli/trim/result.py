@@ -16,7 +16,7 @@ from glidercli.kernel import kernel, warmed
 from glidercli.model.hydrodynamics import velocity_from_flow
 from glidercli.model.parameters import Parameters, symmetric
 from glidercli.ocean.water import Water
-from glidercli.trim.pins import STALL_RATIO
+from glidercli.trim.pins import QUANTITIES, STALL_RATIO
 from glidercli.trim.stability import Mode, growth_rate, linearised, modes
 from glidercli.trim.steady import Unknowns, radius_speed, six
 from glidercli.vehicle.vehicle import Vehicle
@@ -176,17 +176,23 @@ def trim_of(
         within_limits=not outside,
         growth_rate=growth,
         linear_model=linear,
-        warnings=tuple(_warnings(alpha, beta, growth, outside, craft)),
+        warnings=tuple(_warnings(x, growth, outside, craft)),
     )
 
 
-def _warnings(alpha: float, beta: float, growth: float, outside: Sequence[str], craft: Vehicle) -> list[str]:
+def _warnings(x: Unknowns, growth: float, outside: Sequence[str], craft: Vehicle) -> list[str]:
     """What a reader of a trim must know besides its numbers."""
     fitted = craft.hydrodynamics.fitted_angle
-    told = [f"{name.replace('_', ' ')} is beyond the limits of {craft.name}" for name in outside]
+    limits, told = dict(craft.actuators.ranges()), []
+    for name in outside:
+        q, limit = QUANTITIES[name], limits[name]
+        told.append(
+            f"{name.replace('_', ' ')} {x[q.place] / q.factor:.4g} {q.unit} is beyond the limits of {craft.name}, "
+            f"{limit.minimum / q.factor:.4g} to {limit.maximum / q.factor:.4g} {q.unit}"
+        )
     told += [
         f"{name} {angle * _DEG:.1f} deg is beyond the fitted {fitted * _DEG:g} deg"
-        for name, angle in (("angle of attack", alpha), ("sideslip", beta))
+        for name, angle in (("angle of attack", x[1]), ("sideslip", x[2]))
         if abs(angle) > fitted
     ]
     if growth >= 0.0:
