@@ -31,8 +31,8 @@ _BOUNDS = {  # of an ordinary flight; see newton.ordinary
 def nearest_miss(asked: Question, known: Chart, printed: bool, water: Water, p: Parameters) -> str:
     """Where the six equations come nearest to zero, by least squares over what is not pinned, and what fails there.
 
-    A pinned turning radius is a seventh equation, weighed as m V omega_3. The net buoyancy stays within that of the
-    atlas, since every hull that hangs at rest with none fulfils all six.
+    A pinned turning radius gives omega_3; with that pinned too it is a seventh equation, weighed as m V omega_3. The net
+    buoyancy stays within that of the atlas, since every hull that hangs at rest with none fulfils all six.
     """
     far = (((known.pinned - np.array(asked.values)) / known.size) ** 2).sum(axis=1)
     nearest = [_least(known.trims[row], asked, known, printed, water, p) for row in np.argsort(far)[:_STARTS]]
@@ -57,17 +57,21 @@ def _least(
     curvatures = [value for pin, value in zip(asked.pins, asked.values, strict=True) if pin == CURVATURE]
     for pin, value in held:
         x0[pin] = value
-    free = [i for i in range(9) if i not in dict(held)]
+    follows = bool(curvatures) and 3 not in dict(held)  # omega_3 follows from the radius
+    free = [i for i in range(9) if i not in dict(held) and not (i == 3 and follows)]
 
     def whole(y: Array) -> Unknowns:
         x = x0.copy()
         x[free] = y
+        if follows:
+            x[3] = curvatures[0] * radius_speed(as_unknowns(x), printed)
         return as_unknowns(x)
 
     def misses(y: Array) -> list[float]:
         x = whole(y)
         weight = (p.ms + p.mr) * x[0]
-        return [*six(x, water, p), *(weight * (x[3] - one * radius_speed(x, printed)) for one in curvatures)]
+        also = [] if follows else [weight * (x[3] - one * radius_speed(x, printed)) for one in curvatures]
+        return [*six(x, water, p), *also]
 
     same_way = known.trims[known.trims[:, 8] * x0[8] > 0.0]
     low, high = same_way.min(axis=0), same_way.max(axis=0)
