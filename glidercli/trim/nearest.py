@@ -31,8 +31,8 @@ _BOUNDS = {  # of an ordinary flight; see newton.ordinary
 def nearest_miss(asked: Question, known: Chart, printed: bool, water: Water, p: Parameters) -> str:
     """Where the six equations come nearest to zero, by least squares over what is not pinned, and what fails there.
 
-    A pinned turning radius gives omega_3; with that pinned too it is a seventh equation, weighed as m V omega_3. The net
-    buoyancy stays within that of the atlas, since every hull that hangs at rest with none fulfils all six.
+    A pinned turning radius gives omega_3; with that pinned too it is a seventh equation, weighed as m V omega_3. The
+    net buoyancy stays within that of the atlas, since every hull that hangs at rest with none fulfils all six.
     """
     far = (((known.pinned - np.array(asked.values)) / known.size) ** 2).sum(axis=1)
     nearest = [_least(known.trims[row], asked, known, printed, water, p) for row in np.argsort(far)[:_STARTS]]

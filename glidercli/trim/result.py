@@ -23,6 +23,10 @@ from glidercli.vehicle.vehicle import Vehicle
 
 __all__ = ["Trim", "answered", "no_glide", "ranked", "speeds", "table_4", "trim_of"]
 
+ROTATION, LATERAL = 7, [2, 3, 4]
+"""Places in x of gamma, and of beta, omega_3 and phi, which are zero by symmetry in a straight glide."""
+ROUNDED = 1e-9
+"""rad, rad/s: what Newton leaves of those zeros at most."""
 VERTICAL = math.radians(1.0)
 """A path so near to the vertical is called vertical; its horizontal speed is below 2 % of the whole."""
 
@@ -147,8 +151,8 @@ def trim_of(
     x: Unknowns, craft: Vehicle, water: Water, p: Parameters, *, equations: str, method: str, iterations: int
 ) -> Trim:
     """The trim of a solution x, SI and rad, with what follows from it."""
-    if x[7] == 0.0 and symmetric(p) and max(abs(x[2]), abs(x[3]), abs(x[4])) < 1e-9:
-        x = (x[0], x[1], 0.0, 0.0, 0.0, x[5], x[6], 0.0, x[8])  # by symmetry; Newton leaves rounding there
+    if x[ROTATION] == 0.0 and symmetric(p) and max(abs(x[i]) for i in LATERAL) < ROUNDED:
+        x = (x[0], x[1], 0.0, 0.0, 0.0, x[5], x[6], 0.0, x[8])
     speed, alpha, beta, omega3, phi, theta, rrx, gamma, mb = x
     linear = warmed(linearised)(x, water, p)
     growth = growth_rate(linear)

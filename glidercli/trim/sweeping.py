@@ -19,6 +19,7 @@ from glidercli.ocean.water import Water
 from glidercli.trim.atlas import atlas, chart
 from glidercli.trim.forward import CONTROLS, MOST_FOUND, from_controls
 from glidercli.trim.pins import QUANTITIES, Question, allowed, question, spelled
+from glidercli.trim.result import LATERAL, ROTATION, ROUNDED
 from glidercli.trim.search import search_all
 from glidercli.trim.table import HORIZONTAL, columns, linear_models, quantities, ranks, why_no_glide
 from glidercli.units import DEGREE
@@ -215,6 +216,9 @@ def _solved(
                 values[:, k] = 0.0  # a straight glide, asked for by another name
         parts.append(_searched(asked, points, values, craft, printed, water, p))
     found = _joined(parts)
+    if symmetric(p):
+        straight = (found.x[:, ROTATION] == 0.0) & (np.abs(found.x[:, LATERAL]).max(axis=1, initial=0.0) < ROUNDED)
+        found.x[np.ix_(straight, LATERAL)] = 0.0
     run = runner(len(found.x))
     why = why_no_glide(found.x, run(quantities, found.x, printed, water, p)[:, HORIZONTAL], craft)
     for number, one in zip(found.point.tolist(), why.tolist(), strict=True):
@@ -245,7 +249,8 @@ def _impossible(axes: tuple[Axis, ...], pinned: Mapping[str, Array], craft: Vehi
 def _questions(
     pinned: Mapping[str, Array], reason: dict[int, str], craft: Vehicle, alike: bool
 ) -> list[tuple[Question, Integers]]:
-    """Questions with the points that ask them: one, or more where a swept pin passes through straight flight.
+    """Questions with the points that ask them: one, or more where swept pins pass through straight flight or contradict
+    one another.
 
     Points whose pins contradict or depend on one another get that as their reason; if all do, it is raised.
     """
@@ -255,6 +260,7 @@ def _questions(
     for bit, (name, values) in enumerate(pinned.items()):
         if alike and QUANTITIES[name].lateral:
             straight |= (np.isinf(values) if name == "turning_radius" else values == 0.0).astype(int) << bit
+    straight |= _turns_wrongly(pinned).astype(int) << len(pinned)
     asked: list[tuple[Question, Integers]] = []
     refused: UsageError | None = None
     for kind in np.unique(straight[open_points]).tolist():
@@ -271,6 +277,14 @@ def _questions(
     return asked
 
 
+def _turns_wrongly(pinned: Mapping[str, Array]) -> NDArray[np.bool_]:
+    """Where a yaw rate and a turning radius turn to different sides, or faster than the speed allows."""
+    rate, radius = pinned.get("yaw_rate"), pinned.get("turning_radius")
+    if rate is None or radius is None:
+        return np.zeros(len(next(iter(pinned.values()))), dtype=bool)
+    return (rate * radius <= 0.0) | (rate * radius > pinned.get("speed", np.inf))
+
+
 def _searched(
     asked: Question, points: Integers, values: Array, craft: Vehicle, printed: bool, water: Water, p: Parameters
 ) -> _Found:
@@ -285,8 +299,10 @@ def _searched(
             return run(forward_all, some, nominal, water, p)
         return run(search_all, some, asked.pins, seen, _FOLLOWED, False, printed, water, p)
 
+    chunks = [chunk(0)]  # compiles, where need be, in one thread
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        x, iterations, counts = map(np.concatenate, zip(*pool.map(chunk, range(0, len(points), _CHUNK)), strict=True))
+        chunks += pool.map(chunk, range(_CHUNK, len(points), _CHUNK))
+    x, iterations, counts = map(np.concatenate, zip(*chunks, strict=True))
     there = np.arange(MOST_FOUND) < counts[:, np.newaxis]
     return _Found(x[there], iterations[there], np.repeat(points, counts))
 

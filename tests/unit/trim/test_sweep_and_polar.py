@@ -60,6 +60,21 @@ def test_a_sweep_through_straight_flight_has_it() -> None:
     assert found.grid("mass_rotation_deg")[3] == 0.0
 
 
+def test_pins_that_contradict_at_some_points_only() -> None:
+    found = glidercli.trim.sweep("seawing", (axis("yaw-rate=-0.4:0.6:0.2"),), turning_radius=100.0, speed=0.45)
+    assert sorted(found.missing) == [0, 1, 2, 4, 5]  # 0.4 deg/s on 100 m is 0.70 m/s
+    assert "same side" in found.missing[0]
+    assert "straight glide" in found.missing[2]
+    with pytest.raises(UsageError, match="same side"):
+        glidercli.trim.sweep("seawing", (axis("yaw-rate=-0.4:-0.2:0.2"),), turning_radius=100.0, speed=0.45)
+
+
+def test_straight_glides_in_a_map_are_exactly_straight() -> None:
+    found = glidercli.trim.sweep("seawing", (axis("pitch=-60:-20:1.7"), axis("speed=0.2:0.6:0.037")), yaw_rate=0.0)
+    assert np.isinf(found.table["turning_radius_m"]).all()
+    assert (found.table["roll_deg"] == 0.0).all()
+
+
 def test_axis_counts_its_stop_where_a_step_meets_it() -> None:
     assert len(axis("pitch=-60:-10:0.1").values) == 501
     assert np.degrees(axis("mass-rotation=0:10:3").values) == pytest.approx([0, 3, 6, 9])
