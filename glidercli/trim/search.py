@@ -15,8 +15,8 @@ from glidercli.model.parameters import Parameters
 from glidercli.ocean.water import Water
 from glidercli.trim.atlas import Chart
 from glidercli.trim.forward import MOST_FOUND, is_new
-from glidercli.trim.newton import as_unknowns, follow, newton, ordinary
-from glidercli.trim.steady import Pins
+from glidercli.trim.newton import Values, as_unknowns, follow, newton, ordinary
+from glidercli.trim.steady import Pins, Unknowns
 
 __all__ = ["search", "search_all"]
 
@@ -25,14 +25,12 @@ Integers = NDArray[np.int64]
 
 _BEYOND = 0.15
 """Share of its size by which a tetrahedron's box is searched beyond its corners: its faces are really curved."""
-_OUTSIDE = -0.35
-"""Least barycentric weight of a start: trims bend between corners."""
+_WITHIN, _OUTSIDE = -1e-9, -0.35
+"""Least barycentric weight of a start, in the first pass and in the second: trims bend between corners."""
 
 
 @kernel
-def weights(
-    values: tuple[float, float, float], a: Array, b: Array, c: Array, d: Array
-) -> tuple[float, float, float, float]:
+def weights(values: Values, a: Array, b: Array, c: Array, d: Array) -> tuple[float, float, float, float]:
     """Barycentric weights of a point in the tetrahedron a, b, c, d (3,), by Cramer's rule; -inf where it is flat."""
     u = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
     v = (c[0] - a[0], c[1] - a[1], c[2] - a[2])
@@ -63,34 +61,48 @@ def beside(m: int, places: Integers, taken: Integers, count: int) -> bool:
 
 
 @kernel
+def boxed(values: Values, known: Chart, m: int) -> bool:
+    """Whether the box of tetrahedron m, a little enlarged, holds the values."""
+    for k in range(3):
+        margin = _BEYOND * (known.high[m, k] - known.low[m, k]) + 1e-12
+        if values[k] < known.low[m, k] - margin or values[k] > known.high[m, k] + margin:
+            return False
+    return True
+
+
+@kernel
+def start_in(values: Values, known: Chart, m: int) -> tuple[Unknowns, float]:
+    """The trim at the values by linear interpolation in tetrahedron m, and its least weight, negative outside."""
+    i, j, k, n = known.corners[m, 0], known.corners[m, 1], known.corners[m, 2], known.corners[m, 3]
+    a, b, c, d = weights(values, known.pinned[i], known.pinned[j], known.pinned[k], known.pinned[n])
+    least = min(a, b, c, d)
+    if least < _OUTSIDE:
+        return as_unknowns(known.trims[i]), least
+    return as_unknowns(a * known.trims[i] + b * known.trims[j] + c * known.trims[k] + d * known.trims[n]), least
+
+
+@kernel
 def search(
-    values: tuple[float, float, float], pins: Pins, known: Chart, nearest: int, thorough: bool, printed: bool,
-    water: Water, p: Parameters,
-) -> tuple[Array, Integers, int]:  # fmt: skip
+    values: Values, pins: Pins, known: Chart, nearest: int, thorough: bool, printed: bool, water: Water, p: Parameters
+) -> tuple[Array, Integers, int]:
     """(trims (MOST_FOUND, 9), iterations (MOST_FOUND,), how many) at the pinned values.
 
     First the tetrahedra that hold the values, then those that hold them nearly and lie apart from the first; if none
-    leads anywhere, continuation from as many of the nearest trims as ``nearest`` says.
+    leads anywhere, or in a thorough search, continuation from as many of the nearest trims as ``nearest`` says.
     """
     found, iterations = np.zeros((MOST_FOUND, 9)), np.zeros(MOST_FOUND, np.int64)
     taken = np.full(MOST_FOUND, -1)
     count = 0
-    for least in (-1e-9, _OUTSIDE):
+    for allowed in (_WITHIN, _OUTSIDE):
         for m in range(len(known.corners)):
-            inside = True
-            for k in range(3):
-                margin = _BEYOND * (known.high[m, k] - known.low[m, k]) + 1e-12
-                if values[k] < known.low[m, k] - margin or values[k] > known.high[m, k] + margin:
-                    inside = False
-                    break
-            if not inside or count == MOST_FOUND or (least < -1e-3 and beside(m, known.places, taken, count)):
+            if count == MOST_FOUND or not boxed(values, known, m):
                 continue
-            i, j, k, n = known.corners[m, 0], known.corners[m, 1], known.corners[m, 2], known.corners[m, 3]
-            a, b, c, d = weights(values, known.pinned[i], known.pinned[j], known.pinned[k], known.pinned[n])
-            if min(a, b, c, d) < least:
+            if allowed == _OUTSIDE and beside(m, known.places, taken, count):
                 continue
-            start = a * known.trims[i] + b * known.trims[j] + c * known.trims[k] + d * known.trims[n]
-            x, used, there = newton(as_unknowns(start), pins, values, printed, water, p)
+            start, least = start_in(values, known, m)
+            if least < allowed:
+                continue
+            x, used, there = newton(start, pins, values, printed, water, p)
             if there and ordinary(x) and is_new(x, found, count):
                 found[count], iterations[count], taken[count] = np.array(x), used, m
                 count += 1
