@@ -21,12 +21,26 @@ from typing import Any, TypeVar
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 _marked: list[Callable[..., Any]] = []
+_replaced: list[tuple[Callable[..., Any], Callable[..., Any]]] = []
 
 
 def kernel(function: Function) -> Function:
     """Mark a function as part of the compilable physics; it is returned unchanged."""
     _marked.append(function)
     return function
+
+
+def compiled_as(other: Callable[..., Any]) -> Callable[[Function], Function]:
+    """Mark a function that is itself in plain code, and ``other``, a kernel of the same meaning, in compiled code.
+
+    For library functions that are quick to call and slow to compile.
+    """
+
+    def mark(function: Function) -> Function:
+        _replaced.append((function, other))
+        return function
+
+    return mark
 
 
 def sources_hash(package: Path | None = None) -> str:
@@ -54,6 +68,15 @@ def cache_folder() -> Path | None:
     return folder
 
 
+def _standing_for(other: Callable[..., Any]) -> Callable[..., Any]:
+    """What numba asks for which source stands for a function, given the types of its arguments: always ``other``."""
+
+    def source(*types: Any) -> Callable[..., Any]:
+        return other
+
+    return source
+
+
 @functools.cache
 def _numba() -> tuple[Any, bool]:
     """numba, with every marked function made known to it, and whether its cache may be used."""
@@ -61,12 +84,14 @@ def _numba() -> tuple[Any, bool]:
     if folder is not None:
         os.environ["NUMBA_CACHE_DIR"] = str(folder)
     import numba
-    from numba.extending import register_jitable
+    from numba.extending import overload, register_jitable
 
     if folder is not None:
         setattr(numba.config, "CACHE_DIR", str(folder))  # numba may have been imported before, by others  # noqa: B010
     for function in _marked:
         register_jitable(function)
+    for function, other in _replaced:
+        overload(function, strict=False)(_standing_for(other))
     return numba, folder is not None
 
 

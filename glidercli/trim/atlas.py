@@ -24,7 +24,7 @@ from glidercli.kernel import cache_folder
 from glidercli.model.parameters import Parameters, symmetric
 from glidercli.ocean.water import Water
 from glidercli.trim.forward import CONTROLS, FAR_ROLL, mirrored_start, straight_first
-from glidercli.trim.newton import ROUGH, follow, newton, ordinary
+from glidercli.trim.newton import MOST_ITERATIONS, ROUGH, follow, newton, ordinary
 from glidercli.trim.steady import Pins, radius_speed
 from glidercli.trim.straight import position_of_pitch
 from glidercli.vehicle.vehicle import Actuators
@@ -152,7 +152,7 @@ def _one_side(largest: float, turns: Array, water: Water, p: Parameters) -> tupl
             if not found:
                 break
             goal = (rrx, gamma, mb)
-            y, _, found = newton(x, CONTROLS, goal, False, water, p, ROUGH)
+            y, _, found = newton(x, CONTROLS, goal, False, water, p, ROUGH, MOST_ITERATIONS)
             if not (found and ordinary(y)):
                 y, _, found = follow(x, CONTROLS, goal, False, water, p, ROUGH)
             if not found:
@@ -160,7 +160,7 @@ def _one_side(largest: float, turns: Array, water: Water, p: Parameters) -> tupl
             x = first[i, j, k] = y
             if abs(y[4]) > FAR_ROLL:
                 start = mirrored_start((*y[:6], *goal), -y[4], 1.0) if beside is None else beside
-                z, _, there = newton(start, CONTROLS, goal, False, water, p, ROUGH)
+                z, _, there = newton(start, CONTROLS, goal, False, water, p, ROUGH, MOST_ITERATIONS)
                 beside = z if there and ordinary(z) and z[4] * y[4] < 0.0 else None
                 if beside is not None:
                     second[i, j, k] = beside

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from glidercli.kernel import kernel
 from glidercli.model.parameters import Parameters
 from glidercli.ocean.water import Water
-from glidercli.trim.newton import EXACT, follow, newton, ordinary
+from glidercli.trim.newton import EXACT, MOST_ITERATIONS, follow, newton, ordinary
 from glidercli.trim.steady import Unknowns
 from glidercli.trim.straight import first_guess
 
@@ -48,12 +48,12 @@ def is_new(x: Unknowns, found: Array, count: int) -> bool:
 
 @kernel
 def straight_first(
-    rrx: float, gamma: float, mb: float, via: float, water: Water, p: Parameters, relative: float = EXACT
+    rrx: float, gamma: float, mb: float, via: float, water: Water, p: Parameters, relative: float
 ) -> tuple[Unknowns, int, bool]:
     """(x, iterations, found) by way of the straight glide at the mass position ``via``, m."""
     V, alpha, theta = first_guess(via, mb, water.gravity, p)
     start = (V, alpha, 0.0, 0.0, 0.0, theta, via, 0.0, mb)
-    x, used, found = newton(start, CONTROLS, (via, 0.0, mb), False, water, p, relative)
+    x, used, found = newton(start, CONTROLS, (via, 0.0, mb), False, water, p, relative, MOST_ITERATIONS)
     found = found and ordinary(x)
     if found and via != rrx:
         x, more, found = follow(x, CONTROLS, (rrx, 0.0, mb), False, water, p, relative)
@@ -94,9 +94,9 @@ def from_controls(
     the goal's own position cannot be had.
     """
     found, iterations, count = np.zeros((MOST_FOUND, 9)), np.zeros(MOST_FOUND, np.int64), 0
-    x, used, there = straight_first(rrx, gamma, mb, rrx, water, p)
+    x, used, there = straight_first(rrx, gamma, mb, rrx, water, p, EXACT)
     if not there:
-        x, more, there = straight_first(rrx, gamma, mb, nominal + math.copysign(0.02, mb), water, p)
+        x, more, there = straight_first(rrx, gamma, mb, nominal + math.copysign(0.02, mb), water, p, EXACT)
         used += more
     if there:
         found[0], iterations[0], count = np.array(x), used, 1

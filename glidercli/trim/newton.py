@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from glidercli.kernel import kernel
+from glidercli.kernel import compiled_as, kernel
 from glidercli.model.parameters import Parameters
 from glidercli.ocean.water import Water
 from glidercli.trim.steady import CURVATURE, Array, Pins, Unknowns, radius_speed, six, system
@@ -27,7 +27,7 @@ Values = tuple[float, float, float]
 
 
 @kernel
-def tolerance(mb: float, water: Water, relative: float = EXACT) -> float:
+def tolerance(mb: float, water: Water, relative: float) -> float:
     """Largest residual, N or N m, that counts as zero at a net buoyancy, kg."""
     return max(relative * abs(mb) * water.gravity, ROUNDING)
 
@@ -82,6 +82,38 @@ def off(x: Unknowns, pins: Pins, values: Values, printed: bool, water: Water, p:
 
 
 @kernel
+def eliminated(a: Array, b: Array) -> tuple[Array, bool]:
+    """Solution of a x = b, (n,), by Gaussian elimination with partial pivoting, and whether a is regular."""
+    A, x, n = a.copy(), b.copy(), len(b)
+    for i in range(n):
+        pivot = i + int(np.argmax(np.abs(A[i:, i])))
+        if A[pivot, i] == 0.0:
+            return x, False
+        for j in range(n):
+            A[i, j], A[pivot, j] = A[pivot, j], A[i, j]
+        x[i], x[pivot] = x[pivot], x[i]
+        for row in range(i + 1, n):
+            factor = A[row, i] / A[i, i]
+            for j in range(i, n):
+                A[row, j] -= factor * A[i, j]
+            x[row] -= factor * x[i]
+    for i in range(n - 1, -1, -1):
+        for j in range(i + 1, n):
+            x[i] -= A[i, j] * x[j]
+        x[i] /= A[i, i]
+    return x, True
+
+
+@compiled_as(eliminated)
+def solve(a: Array, b: Array) -> tuple[Array, bool]:
+    """The same by LAPACK, which numba takes 4.4 s to compile."""
+    try:
+        return np.asarray(np.linalg.solve(a, b)), True
+    except np.linalg.LinAlgError:
+        return b, False
+
+
+@kernel
 def newton(
     start: Unknowns,
     pins: Pins,
@@ -89,8 +121,8 @@ def newton(
     printed: bool,
     water: Water,
     p: Parameters,
-    relative: float = EXACT,
-    most: int = MOST_ITERATIONS,
+    relative: float,
+    most: int,
 ) -> tuple[Unknowns, int, bool]:
     """(x, iterations, whether it is a trim) by damped Newton: each step is halved until the equations come nearer zero.
 
@@ -101,9 +133,8 @@ def newton(
     far = off(x, pins, values, printed, water, p)
     for iteration in range(1, most + 1):
         A, r = system(x, pins, values, printed, water, p)
-        try:
-            step = np.linalg.solve(A, r)
-        except Exception:  # singular; numba knows no narrower class
+        step, regular = solve(A, r)
+        if not regular:
             return x, iteration, False
         share, nearer = 1.0, False
         for _ in range(_HALVINGS):
@@ -124,7 +155,7 @@ def newton(
 
 @kernel
 def follow(
-    start: Unknowns, pins: Pins, values: Values, printed: bool, water: Water, p: Parameters, relative: float = EXACT
+    start: Unknowns, pins: Pins, values: Values, printed: bool, water: Water, p: Parameters, relative: float
 ) -> tuple[Unknowns, int, bool]:
     """(x, iterations, whether it got there): from a trim to other values of the pins, in steps that halve."""
     x, done, step, used = start, 0.0, 1.0, 0

@@ -15,7 +15,7 @@ from glidercli.model.parameters import Parameters
 from glidercli.ocean.water import Water
 from glidercli.trim.atlas import Chart
 from glidercli.trim.forward import MOST_FOUND, is_new
-from glidercli.trim.newton import Values, as_unknowns, follow, newton, ordinary
+from glidercli.trim.newton import EXACT, MOST_ITERATIONS, Values, as_unknowns, follow, newton, ordinary
 from glidercli.trim.steady import Pins, Unknowns
 
 __all__ = ["search", "search_all"]
@@ -102,7 +102,7 @@ def search(
             start, least = start_in(values, known, m)
             if least < allowed:
                 continue
-            x, used, there = newton(start, pins, values, printed, water, p)
+            x, used, there = newton(start, pins, values, printed, water, p, EXACT, MOST_ITERATIONS)
             if there and ordinary(x) and is_new(x, found, count):
                 found[count], iterations[count], taken[count] = np.array(x), used, m
                 count += 1
@@ -111,7 +111,7 @@ def search(
         for k in range(3):
             far += ((known.pinned[:, k] - values[k]) / known.size[k]) ** 2
         for m in np.argsort(far)[:nearest]:
-            x, used, there = follow(as_unknowns(known.trims[m]), pins, values, printed, water, p)
+            x, used, there = follow(as_unknowns(known.trims[m]), pins, values, printed, water, p, EXACT)
             if there and count < MOST_FOUND and is_new(x, found, count):
                 found[count], iterations[count] = np.array(x), used
                 count += 1
