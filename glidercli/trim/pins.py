@@ -68,9 +68,9 @@ def allowed(name: str, value: float, craft: Vehicle) -> float:
     least, most = q.least, q.most
     if name == "net_buoyancy":
         least, most = -craft.mass.displaced_mass, craft.mass.displaced_mass
-    told = f"{value / q.factor:g} {q.unit}"
     if math.isinf(value) and name == "turning_radius":
         return value
+    told = f"{value / q.factor:g} {q.unit}"
     if not math.isfinite(value):
         raise InputError(words, f"{value} is not allowed; a finite number is needed")
     if not least - 1e-9 <= value / q.factor <= most + 1e-9:
@@ -131,34 +131,35 @@ def _is_straight(name: str, value: float) -> bool:
 
 def _count(pinned: Mapping[str, float]) -> None:
     """Refuse any number of pins but three."""
+    if len(pinned) == 3:
+        return
     told = ", ".join(map(spelled, pinned)) or "none"
-    if len(pinned) < 3:
-        rest = ", ".join(spelled(name) for name in QUANTITIES if name not in pinned)
-        missing = 3 - len(pinned)
-        raise UsageError(
-            f"too few pins: three determine a trim, given: {told}; {missing} more of {rest} would complete it"
-        )
     if len(pinned) > 3:
         raise UsageError(f"too many pins: three determine a trim, {len(pinned)} given: {told}; leave out all but three")
+    rest = ", ".join(spelled(name) for name in QUANTITIES if name not in pinned)
+    raise UsageError(
+        f"too few pins: three determine a trim, given: {told}; {3 - len(pinned)} more of {rest} would complete it"
+    )
 
 
 def _consistent(pinned: Mapping[str, float], symmetric: bool) -> None:
     """Refuse pins that say one thing twice, or two things that cannot both be."""
     lateral = {name: value for name, value in pinned.items() if QUANTITIES[name].lateral}
-    straight = [spelled(name) for name, value in lateral.items() if _is_straight(name, value)] if symmetric else []
-    turning = [spelled(name) for name, value in lateral.items() if not _is_straight(name, value)]
-    others = ", ".join(spelled(n) for n, q in QUANTITIES.items() if not q.lateral and n not in pinned)
+    straight = [name for name, value in lateral.items() if _is_straight(name, value)] if symmetric else []
     if len(straight) > 1:
         raise UsageError(
-            f"dependent pins: {' and '.join(straight)} both ask for a straight glide; one of {others} in place of one "
-            "of them would complete the trim"
+            f"dependent pins: {' and '.join(map(spelled, straight))} both ask for a straight glide; one of "
+            f"{_longitudinal(pinned)} in place of one of them would complete the trim"
         )
-    if straight and turning:
-        raise UsageError(f"contradictory pins: {straight[0]} asks for a straight glide, {turning[0]} for a turn")
-    if straight and {"angle_of_attack", "pitch"} <= set(pinned):
+    if straight and len(lateral) > 1:
+        turning = next(name for name in lateral if name not in straight)
+        raise UsageError(
+            f"contradictory pins: {spelled(straight[0])} asks for a straight glide, {spelled(turning)} for a turn"
+        )
+    if straight and "angle_of_attack" in pinned and "pitch" in pinned:
         raise UsageError(
             "dependent pins: in a straight glide --angle-of-attack and --pitch say the same, drag over lift; one of "
-            f"{others} in place of one of them would complete the trim"
+            f"{_longitudinal(pinned)} in place of one of them would complete the trim"
         )
     rate, radius = pinned.get("yaw_rate"), pinned.get("turning_radius")
     if rate is not None and radius is not None and math.isfinite(radius):
@@ -169,3 +170,8 @@ def _consistent(pinned: Mapping[str, float], symmetric: bool) -> None:
                 f"contradictory pins: --yaw-rate times --turning-radius is a horizontal speed of {rate * radius:g} "
                 f"m/s, more than the --speed of {pinned['speed']:g} m/s"
             )
+
+
+def _longitudinal(pinned: Mapping[str, float]) -> str:
+    """The pins that a straight glide leaves open and that are not given."""
+    return ", ".join(spelled(name) for name, q in QUANTITIES.items() if not q.lateral and name not in pinned)
