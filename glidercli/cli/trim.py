@@ -96,8 +96,9 @@ def trim(
     from glidercli.cli.printing import json_text, say, warn
     from glidercli.errors import UsageError
     from glidercli.files import check_not_inputs, check_outputs
+    from glidercli.pictures import PICTURES
     from glidercli.provenance import provenance
-    from glidercli.trim.output import SUFFIXES, write
+    from glidercli.trim.output import SUFFIXES, TABLES, write
     from glidercli.trim.pins import QUANTITIES
 
     pins: dict[str, float] = {
@@ -121,6 +122,8 @@ def trim(
     alone = [f"--{name.replace('_', '-')}" for name, value in journey.items() if value is not None]
     if alone and not polar:
         raise UsageError(f"{alone[0]} is part of --polar; it needs that option")
+    if polar and linearize:
+        raise UsageError("--linearize is for trims and sweeps; it cannot take --polar")
     outputs = output or []
     stdout = Path("-") in outputs
     if json and stdout:
@@ -129,6 +132,9 @@ def trim(
     inputs = [Path(vehicle)] if Path(vehicle).suffix else []
     check_outputs(files, SUFFIXES, force)
     check_not_inputs(files, inputs)
+    pictures = [path for path in files if path.suffix.lower() in PICTURES]
+    if pictures and not polar and not 1 <= len(sweep or []) <= 2:
+        raise UsageError(f"-o {pictures[0]}: a picture shows one --sweep, two, or --polar; else {' '.join(TABLES)}")
 
     if polar:
         answer, warnings, text = _polar(vehicle, pins, journey, form)

@@ -25,7 +25,7 @@ from glidercli.model.parameters import Parameters, symmetric
 from glidercli.ocean.water import Water
 from glidercli.trim.forward import CONTROLS, FAR_ROLL, mirrored_start, straight_first
 from glidercli.trim.newton import MOST_ITERATIONS, ROUGH, follow, newton, ordinary
-from glidercli.trim.steady import Pins, radius_speed
+from glidercli.trim.steady import SLOWEST, Pins, radius_speed
 from glidercli.trim.straight import position_of_pitch
 from glidercli.vehicle.vehicle import Actuators
 
@@ -108,7 +108,7 @@ def _made(extremes: tuple[float, float], printed: bool, water: Water, p: Paramet
         used += int(there.sum())
         x = sheet[there]
         speed = np.array([radius_speed(tuple(row), printed) for row in x.tolist()])
-        trims.append(np.column_stack([x, x[:, 3] / speed]))
+        trims.append(np.column_stack([x, x[:, 3] / np.maximum(speed, SLOWEST)]))
         own, cells = _tetrahedra(index)
         corners.append(own)
         places.append(np.column_stack([np.full(len(own), number), cells]))

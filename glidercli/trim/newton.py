@@ -9,7 +9,7 @@ import numpy as np
 from glidercli.kernel import compiled_as, kernel
 from glidercli.model.parameters import Parameters
 from glidercli.ocean.water import Water
-from glidercli.trim.steady import CURVATURE, Array, Pins, Unknowns, radius_speed, six, system
+from glidercli.trim.steady import CURVATURE, SLOWEST, Array, Pins, Unknowns, radius_speed, six, system
 
 __all__ = ["follow", "newton", "ordinary", "tolerance", "worst"]
 
@@ -161,7 +161,7 @@ def follow(
     x, done, step, used = start, 0.0, 1.0, 0
     at = np.zeros(3)
     for k in range(3):
-        at[k] = x[3] / radius_speed(x, printed) if pins[k] == CURVATURE else x[pins[k]]
+        at[k] = x[3] / max(radius_speed(x, printed), SLOWEST) if pins[k] == CURVATURE else x[pins[k]]
     while done < 1.0 and step > _SMALLEST_STEP:
         share = min(1.0, done + step)
         a = at[0] + share * (values[0] - at[0])

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.errors import InputError
+from glidercli.errors import InputError, NoSolutionError
 from glidercli.kernel import runner
 from glidercli.model.parameters import Parameters, symmetric
 from glidercli.ocean.water import Water
@@ -92,7 +92,10 @@ def polar(
     Raises
     ------
     InputError
-        A net buoyancy that no vehicle can have, an impossible journey, a vehicle with a heavier side.
+        A net buoyancy that no vehicle can have, an impossible journey, a vehicle with a heavier side or without a net
+        buoyancy of its own.
+    NoSolutionError
+        A vehicle that does not glide.
     """
     _check(journey, craft, p)
     limit = craft.actuators.net_buoyancy
@@ -104,7 +107,11 @@ def polar(
         extremes = {"dive": limit.maximum, "climb": limit.minimum}
         curves = [one * share for one in extremes.values() if one for share in SHARES]
         ways = {way: one * np.arange(1, _FINE + 1) / _FINE for way, one in extremes.items() if one}
+    if not curves:
+        raise InputError(craft.name, "has no net buoyancy of its own; one must be given, in kg")
     parts = [_glides(np.array([mb]), POINTS, craft, water, p) for mb in curves]
+    if not any(map(len, parts)):
+        raise NoSolutionError(f"{craft.name} has no straight glide within the fitted angles of attack")
     numbers = [np.full(len(part), number) for number, part in enumerate(parts)]
     best, used = {}, sum(map(len, parts))
     for way, buoyancies in ways.items():
@@ -138,7 +145,7 @@ def _check(journey: Journey, craft: Vehicle, p: Parameters) -> None:
 def _glides(buoyancies: Array, count: int, craft: Vehicle, water: Water, p: Parameters) -> Array:
     """Straight glides (n, 9) of net buoyancies of one sign, over the fitted angles of attack, ``count`` of these."""
     fitted = craft.hydrodynamics.fitted_angle
-    alpha = fitted * np.linspace(0.0, 1.0, count) ** 2 * np.sign(buoyancies[0])
+    alpha = fitted * np.linspace(0.0, 1.0, count) ** 2 * np.sign(buoyancies[0] * p.Kalpha)
     mb, alpha = (grid.ravel() for grid in np.meshgrid(buoyancies, alpha, indexing="ij"))
     x = glides(alpha, mb, water, p)
     x = x[np.isfinite(x[:, 0])]

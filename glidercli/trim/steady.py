@@ -19,7 +19,7 @@ from glidercli.model.hydrodynamics import velocity_from_flow
 from glidercli.model.parameters import Controls, Parameters
 from glidercli.ocean.water import Water
 
-__all__ = ["CURVATURE", "UNKNOWNS", "Pins", "Six", "Unknowns", "radius_speed", "six", "six_along", "system"]
+__all__ = ["CURVATURE", "SLOWEST", "Pins", "Six", "Unknowns", "radius_speed", "six", "six_along", "system"]
 
 Array = NDArray[np.float64]
 Unknowns = tuple[float, float, float, float, float, float, float, float, float]
@@ -27,8 +27,9 @@ Six = tuple[float, float, float, float, float, float]
 Pins = tuple[int, int, int]
 """Places in x of what is pinned, CURVATURE for 1 / R."""
 
-UNKNOWNS = 9
 CURVATURE = 9
+SLOWEST = 1e-9
+"""m/s: a horizontal speed below it, in vertical flight, is taken as this where it divides."""
 
 
 @kernel
@@ -69,7 +70,7 @@ def radius_speed_along(x: Unknowns, d: Unknowns, printed: bool) -> float:
     dV = velocity_from_flow_along(x[0], x[1], x[2], d[0], d[1], d[2])
     sinking = dot(V, k_b)
     dsinking = dot(dV, k_b) + dot(V, down_in_body_along(x[4], x[5], d[4], d[5]))
-    return (x[0] * d[0] - sinking * dsinking) / max(radius_speed(x, printed), 1e-9)
+    return (x[0] * d[0] - sinking * dsinking) / max(radius_speed(x, printed), SLOWEST)
 
 
 @kernel

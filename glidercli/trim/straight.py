@@ -29,7 +29,8 @@ def first_guess(rrx: float, mb: float, gravity: float, p: Parameters) -> tuple[f
     alpha = 0.0
     for _ in range(20):  # D / L = tan(alpha - theta), solved for alpha in L
         slope = math.tan(min(max(abs(pitch - alpha), math.radians(10.0)), math.radians(80.0)))
-        alpha = ((p.KD0 + p.KD * alpha * alpha) / slope * down - p.KL0) / p.Kalpha
+        if p.Kalpha != 0.0:
+            alpha = ((p.KD0 + p.KD * alpha * alpha) / slope * down - p.KL0) / p.Kalpha
         alpha = min(max(alpha, -0.2), 0.2)
     drag = p.KD0 + p.KD * alpha * alpha
     return math.sqrt(abs(mb) * gravity * math.sin(abs(pitch - alpha)) / drag), alpha, pitch

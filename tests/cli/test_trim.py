@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import Run, one_line_error
+from conftest import ROOT, Run, one_line_error
 from pyarrow import parquet
 
 PINS = ("--net-buoyancy", "0.3", "--mass-position", "0.4216", "--mass-rotation", "45")
@@ -331,7 +331,7 @@ def test_a_map_of_a_milliard_points_is_refused_with_the_count(glider: Run) -> No
 
 
 def test_one_trim_makes_no_picture(glider: Run, tmp_path: Path) -> None:
-    one_line_error(glider("trim", *PINS, "-o", "t.png", "-o", "t.csv"), "t.png", "--sweep")
+    one_line_error(glider("trim", *PINS, "-o", "t.png", "-o", "t.csv"), "t.png", "--sweep", code=2)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -362,3 +362,33 @@ def test_polar_against_a_current(glider: Run, glider_json: Callable[..., Any]) -
     assert "2 m/s" in strong["why_none"]
     one_line_error(glider("trim", *PINS, "--current", "0.2"), "--current", "--polar", code=2)
     one_line_error(glider("trim", "--polar", "--current", "nan"), "current")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "pins", "words"),
+    [
+        ("value = 440.99", "value = 0.0", WANTED, ("furthest from zero",)),  # no lift: it only sinks
+        ("value = 440.99", "value = 0.0", ("--polar",), ("no straight glide",)),
+        ("[-0.0814, 0.0, 0.0032]", "[-0.0814, 0.0006, 0.0032]", ("--polar",), ("to one side",)),
+        ("[-0.0814, 0.0, 0.0032]", "[-0.0814, 0.0, -0.02]", PINS, ("furthest from zero",)),  # top-heavy
+    ],
+)
+def test_odd_vehicles_are_answered_in_words(
+    glider: Run, tmp_path: Path, old: str, new: str, pins: tuple[str, ...], words: tuple[str, ...]
+) -> None:
+    text = (ROOT / "glidercli/vehicle/data/seawing.toml").read_text()
+    lines = [line if "K_L0" in line else line.replace(old, new) for line in text.splitlines()]
+    assert "\n".join(lines) != text
+    if new == "value = 0.0":
+        lines = [line.replace("value = -0.36", "value = 0.0") for line in lines]
+    (tmp_path / "odd.toml").write_text("\n".join(lines))
+    one_line_error(glider("trim", "--vehicle", "odd.toml", *pins), *words)
+
+
+def test_polar_of_a_vehicle_whose_lift_is_reversed(
+    glider: Run, tmp_path: Path, glider_json: Callable[..., Any]
+) -> None:
+    text = (ROOT / "glidercli/vehicle/data/seawing.toml").read_text().replace("value = 440.99", "value = -440.99")
+    (tmp_path / "odd.toml").write_text(text)
+    best = glider_json("trim", "--vehicle", "odd.toml", "--polar", "--quiet")["polar"]["dive"]["best_glide"]
+    assert best["angle_of_attack_deg"] < -7.0
