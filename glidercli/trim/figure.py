@@ -91,7 +91,7 @@ def _sheet(rows: int, title: str, remarks: list[str]) -> tuple[Figure, Any]:
     for number, line in enumerate(reversed(remarks)):
         sheet.text(0.01, (0.06 + 0.14 * number) / height, line, va="bottom", fontsize=7, color="#444444")
     grid = sheet.add_gridspec(
-        rows, 2, left=0.09, right=0.985, top=1.0 - head / height, bottom=foot / height, hspace=0.34, wspace=0.26
+        rows, 2, left=0.09, right=0.965, top=1.0 - head / height, bottom=foot / height, hspace=0.34, wspace=0.26
     )
     return sheet, grid
 
