@@ -26,11 +26,11 @@ from glidercli.frames import (
 from glidercli.kernel import kernel
 from glidercli.model.buoyancy import displaced_mass, hull_excess, pumped_excess
 from glidercli.model.hydrodynamics import forces_and_moments
-from glidercli.model.mass import first_moment, momentum, movable_momentum, velocity
+from glidercli.model.mass import Placement, momentum, placement, velocity
 from glidercli.model.parameters import Controls, Parameters
 from glidercli.ocean.water import Water
 
-__all__ = ["EQUATIONS", "Rates", "State", "equilibrium", "rates", "through_water", "wrench"]
+__all__ = ["EQUATIONS", "Rates", "State", "equilibrium", "rates", "wrench"]
 
 
 EQUATIONS = (
@@ -62,12 +62,15 @@ class Rates(NamedTuple):
     Pi: Vector
     power: float
     """W, lost to the water by hydrodynamic forces and moments."""
+    V: Vector
+    """m/s, velocity through water, body frame."""
 
 
 @kernel
 def wrench(
-    V: Vector, Omega: Vector, P: Vector, Pi: Vector, k_b: Vector, c: Controls, water: Water, p: Parameters
-) -> tuple[Vector, Vector]:
+    V: Vector, Omega: Vector, P: Vector, Pi: Vector, F: Vector, T: Vector, k_b: Vector, at: Placement, water: Water,
+    p: Parameters,
+) -> tuple[Vector, Vector]:  # fmt: skip
     """The right-hand side of eq. (19), N and N m, body frame.
 
         P x Omega + mb g k_b + F
@@ -76,11 +79,10 @@ def wrench(
     k_b : R_EB^T k, the direction of gravity. mb is that of the pump and of the hull in this water (buoyancy.py).
     """
     g = water.gravity
-    F, T = forces_and_moments(V, Omega, water.density / p.rho_ref, p)
-    mb = pumped_excess(c.mb, water.density, p)
+    mb = pumped_excess(at.mb, water.density, p)
     weight = mb + hull_excess(water.density, water.pressure, water.temperature, p)
     force = add(add(cross(P, Omega), scale(weight * g, k_b)), F)
-    arm = add(first_moment(c, p), scale(mb, p.rb))
+    arm = add(at.s, scale(mb, p.rb))
     return force, add(add(cross(Pi, Omega), cross(P, V)), add(cross(arm, scale(g, k_b)), T))
 
 
@@ -94,27 +96,16 @@ def equilibrium(
     through ``without_coupling``.
     """
     Omega = scale(omega3, k_b)
-    P, Pi = momentum(V, Omega, c, water.density / p.rho_ref, p)
-    f, m = wrench(V, Omega, P, Pi, k_b, c, water, p)
+    dense = water.density / p.rho_ref
+    P, Pi = momentum(V, Omega, c, dense, p)
+    F, T = forces_and_moments(V, Omega, dense, p)
+    f, m = wrench(V, Omega, P, Pi, F, T, k_b, placement(c, p, False), water, p)
     return (f[0], f[1], f[2], m[0], m[1], m[2])
 
 
 @kernel
-def through_water(s: State, c: Controls, water: Water, p: Parameters, full: bool) -> tuple[Vector, Vector]:
-    """(V, Omega) of a state: velocity through water, m/s, and body rates, rad/s, body frame.
-
-    full : whether the momentum of the moving actuator counts; the paper leaves it out.
-    """
-    P, Pi = s.P, s.Pi
-    if full:
-        P_mass, Pi_mass = movable_momentum(c, p)
-        P, Pi = add(P, scale(-1.0, P_mass)), add(Pi, scale(-1.0, Pi_mass))
-    return velocity(P, Pi, c, water.density / p.rho_ref, p)
-
-
-@kernel
 def shear_wrench(
-    V_ned: Vector, REB: tuple[Vector, Vector, Vector], c: Controls, water: Water, p: Parameters
+    V_ned: Vector, REB: tuple[Vector, Vector, Vector], at: Placement, water: Water, p: Parameters
 ) -> tuple[Vector, Vector]:
     """Force and moment of a steady current that changes with depth, N and N m, body frame; eq. (50) leaves them out.
 
@@ -126,23 +117,25 @@ def shear_wrench(
     RBE = transposed(REB)
     a = times(RBE, scale(V_ned[2], water.shear))
     a_w = times(RBE, scale(water.current[2], water.shear))
-    md = displaced_mass(c.mb, water.density, water.pressure, water.temperature, p)
-    return add(scale(-(p.ms + p.mr), a), scale(md, a_w)), scale(-1.0, cross(first_moment(c, p), a))
+    md = displaced_mass(at.mb, water.density, water.pressure, water.temperature, p)
+    return add(scale(-(p.ms + p.mr), a), scale(md, a_w)), scale(-1.0, cross(at.s, a))
 
 
 @kernel
-def rates(s: State, c: Controls, water: Water, p: Parameters, full: bool) -> Rates:
+def rates(s: State, at: Placement, water: Water, p: Parameters, full: bool) -> Rates:
     """Time derivative of the state: eqs (1), (3), (18) with (50).
 
-    full : with the shear's own term and the momentum of the moving actuator; False is the paper's form.
+    at : where the controls put the masses (see ``placement``). full : with the water's own acceleration along the way;
+    False is the paper's form.
     """
-    V, Omega = through_water(s, c, water, p, full)
+    dense = water.density / p.rho_ref
+    V, Omega = velocity(s.P, s.Pi, at, dense, p)
     REB = rotation_ned_body(s.q_wxyz)
     k_b = REB[2]  # R_EB^T k: the third row
     V_ned = add(times(REB, V), water.current)
-    force, moment = wrench(V, Omega, s.P, s.Pi, k_b, c, water, p)
+    F, T = forces_and_moments(V, Omega, dense, p)
+    force, moment = wrench(V, Omega, s.P, s.Pi, F, T, k_b, at, water, p)
     if full:
-        force_shear, moment_shear = shear_wrench(V_ned, REB, c, water, p)
+        force_shear, moment_shear = shear_wrench(V_ned, REB, at, water, p)
         force, moment = add(force, force_shear), add(moment, moment_shear)
-    F, T = forces_and_moments(V, Omega, water.density / p.rho_ref, p)
-    return Rates(V_ned, quaternion_rate(s.q_wxyz, Omega), force, moment, -dot(F, V) - dot(T, Omega))
+    return Rates(V_ned, quaternion_rate(s.q_wxyz, Omega), force, moment, -dot(F, V) - dot(T, Omega), V)

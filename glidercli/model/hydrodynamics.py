@@ -42,6 +42,16 @@ def rotation_body_flow(alpha: float, beta: float) -> Matrix:
 
 
 @kernel
+def rotation_along(V: Vector, speed: float) -> Matrix:
+    """The same from the velocity through water itself, m/s: no sine or cosine is needed."""
+    across = math.sqrt(V[0] * V[0] + V[2] * V[2])
+    if across == 0.0:
+        return rotation_body_flow(*flow_angles(V)[1:])
+    ca, sa, cb, sb = V[0] / across, V[2] / across, across / speed, V[1] / speed
+    return ((ca * cb, -ca * sb, -sa), (sb, cb, 0.0), (sa * cb, -sa * sb, ca))
+
+
+@kernel
 def in_flow_frame(
     speed: float, alpha: float, beta: float, Omega: Vector, dense: float, p: Parameters
 ) -> tuple[Vector, Vector]:
@@ -69,5 +79,5 @@ def forces_and_moments(V: Vector, Omega: Vector, dense: float, p: Parameters) ->
     """
     speed, alpha, beta = flow_angles(V)
     f, t = in_flow_frame(speed, alpha, beta, Omega, dense, p)
-    RBC = rotation_body_flow(alpha, beta)
+    RBC = rotation_along(V, speed)
     return times(RBC, f), times(RBC, t)

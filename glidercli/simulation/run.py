@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from glidercli.log import Log
     from glidercli.ocean.ocean import Ocean
     from glidercli.simulation.flight import Flight
+    from glidercli.simulation.legs import Leg
     from glidercli.simulation.mission import Mission
-    from glidercli.simulation.schedule import Schedule
 
 __all__ = ["Simulation", "simulate"]
 
@@ -84,7 +84,7 @@ def simulate(
     start_depth: float | None = None,
     latitude: float | None = None,
     every: float = 1.0,
-    rtol: float = 1e-8,
+    rtol: float = 1e-6,
     equations: str = "full",
     outputs: Collection[Path] = (),
 ) -> Simulation:
@@ -115,7 +115,7 @@ def simulate(
     """
     from glidercli.model.parameters import parameters
     from glidercli.ocean.ocean import Ocean
-    from glidercli.simulation.flight import fly
+    from glidercli.simulation.flight import Start, fly
     from glidercli.simulation.mission import load_mission
     from glidercli.simulation.to_log import to_log
     from glidercli.vehicle import load_vehicle
@@ -165,8 +165,7 @@ def simulate(
         ocean.sea,
         p,
         duration=length,
-        start_depth=depth,
-        heading=math.radians(plan.heading_deg) if plan else 0.0,
+        start=Start(depth=depth, heading=math.radians(plan.heading_deg) if plan else 0.0),
         every=every,
         rtol=rtol,
         full=equations == "full",
@@ -190,10 +189,10 @@ def simulate(
         warnings.append("the water has no temperature: thermal expansion of the hull is left out")
     return Simulation(
         log=log,
-        duration=float(flight.times[-1]),
+        duration=flight.duration,
         max_depth=flight.depths[1],
         distance=flight.distance,
-        energy=float(flight.column("energy")[-1]),
+        energy=flight.final("energy"),
         net_buoyancy_in_water=flight.excess,
         wall=flight.wall,
         warnings=tuple(warnings),
@@ -228,9 +227,9 @@ def _ocean(kind: type[Ocean], density: float, temperature: float, ctd: Any, adcp
 def _legs(
     plan: Mission | None, beside: Path, mass_position: float | None, mass_rotation: float | None,
     net_buoyancy: float | None,
-) -> tuple[list[Schedule], list[Path]]:  # fmt: skip
+) -> tuple[list[Leg], list[Path]]:  # fmt: skip
     """The legs and the files of their controls."""
-    from glidercli.simulation.schedule import held, read_schedule
+    from glidercli.simulation.legs import held, read_controls
 
     given = {"mass position": mass_position, "mass rotation": mass_rotation, "net buoyancy": net_buoyancy}
     if plan:
@@ -238,7 +237,7 @@ def _legs(
         if extra:
             raise UsageError(f"mission {plan.name} sets the controls; {', '.join(extra)} cannot be given beside it")
         files = [beside / leg.controls for leg in plan.leg]
-        legs = [read_schedule(f, leg.name, leg.until_depth_m) for f, leg in zip(files, plan.leg, strict=True)]
+        legs = [read_controls(f, leg.name, leg.until_depth_m) for f, leg in zip(files, plan.leg, strict=True)]
         return legs, files
     if mass_position is None or mass_rotation is None or net_buoyancy is None:
         missing = [name for name, value in given.items() if value is None]
@@ -265,7 +264,7 @@ def _metadata(plan: Mission | None, craft: Vehicle, equations: str, remade: list
     return told
 
 
-def _warnings(flight: Flight, craft: Vehicle, legs: list[Schedule]) -> list[str]:
+def _warnings(flight: Flight, craft: Vehicle, legs: list[Leg]) -> list[str]:
     """Where the flight left the range that the model was fitted to, and controls beyond the vehicle's limits."""
     found = [
         f"{e.name} was beyond {'' if e.name == 'roll' else 'the fitted '}{math.degrees(e.limit):g} deg for "

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from glidercli.frames import add, cross, dot, scale, times
 from glidercli.model.hydrodynamics import velocity_from_flow
-from glidercli.model.mass import first_moment, generalized_inertia
+from glidercli.model.mass import first_moment, generalized_inertia, placement
 from glidercli.model.parameters import Controls, Parameters
 
 __all__ = [
@@ -203,7 +203,7 @@ def rrx_from_37(x: Spiral, p: Parameters) -> float:
 def _moment_without_movable(x: Spiral, p: Parameters, restored: bool) -> tuple[float, float, float]:
     """ms g rs x k_b + (It Omega) x Omega + (Mt V) x V + T, and, if ``restored``, ms rs x (V x Omega), N m."""
     k_b, V = _k_b(x), velocity_from_flow(x.V, x.alpha, x.beta)
-    _, _, It = generalized_inertia(Controls(x.rrx, x.gamma, x.mb), 1.0, p)
+    _, _, It = generalized_inertia(placement(Controls(x.rrx, x.gamma, x.mb), p, False), 1.0, p)
     mt, Omega = _mt(p), scale(x.omega3, k_b)
     u = (mt[0] * V[0], mt[1] * V[1], mt[2] * V[2])
     total = add(scale(p.ms * x.g, cross(p.rs, k_b)), cross(times(It, Omega), Omega))

@@ -17,7 +17,7 @@ from glidercli.frames import Vector, down_in_body, scale
 from glidercli.kernel import kernel
 from glidercli.model.derivatives import down_in_body_along, flow_angles_along, velocity_from_flow_along, wrench_along
 from glidercli.model.hydrodynamics import velocity_from_flow
-from glidercli.model.mass import velocity
+from glidercli.model.mass import placement, velocity
 from glidercli.model.parameters import Controls, Parameters
 from glidercli.ocean.water import Water
 from glidercli.trim.steady import Unknowns
@@ -86,6 +86,7 @@ def linearised(x: Unknowns, water: Water, p: Parameters) -> Array:
     """
     speed, alpha, beta, omega3, phi, theta, rrx, gamma, mb = x
     c, still = Controls(rrx, gamma, mb, 0.0, 0.0), Controls(0.0, 0.0, 0.0, 0.0, 0.0)
+    at = placement(c, p, False)
     V, k_b = velocity_from_flow(speed, alpha, beta), down_in_body(phi, theta)
     Omega = scale(omega3, k_b)
     A = np.zeros((8, 8))
@@ -96,7 +97,7 @@ def linearised(x: Unknowns, water: Water, p: Parameters) -> Array:
         dOmega = (d[3], d[4], d[5])
         dk_b = down_in_body_along(phi, theta, d[6], d[7])
         force, moment = wrench_along(V, Omega, k_b, c, dV, dOmega, dk_b, still, water, p)
-        V_rate, Omega_rate = velocity(force, moment, c, water.density / p.rho_ref, p)
+        V_rate, Omega_rate = velocity(force, moment, at, water.density / p.rho_ref, p)
         flow_rate = flow_angles_along(V, V_rate)
         attitude_rate = turning_along(Omega, dOmega, phi, theta, d[6], d[7])
         for row in range(3):

@@ -15,7 +15,7 @@ from glidercli.frames import down_in_body, euler_from_quaternion_arrays, quatern
 from glidercli.model import Parameters
 from glidercli.model.equations import State, rates
 from glidercli.model.hydrodynamics import flow_angles, velocity_from_flow
-from glidercli.model.mass import momentum, velocity
+from glidercli.model.mass import momentum, placement, velocity
 from glidercli.model.parameters import Controls
 from glidercli.ocean.water import Water
 from glidercli.trim.stability import growth_rate, linearised
@@ -35,7 +35,7 @@ def test_small_deviations_move_as_the_linear_model_says(
 
     def slope(_: float, y: np.ndarray) -> list[float]:
         q = tuple(y[:4] / np.linalg.norm(y[:4]))
-        r = rates(State((0.0, 0.0, 0.0), q, tuple(y[4:7]), tuple(y[7:])), c, water, p, True)
+        r = rates(State((0.0, 0.0, 0.0), q, tuple(y[4:7]), tuple(y[7:])), placement(c, p, True), water, p, True)
         return [*r.q_wxyz, *r.P, *r.Pi]
 
     def flown(deviation: np.ndarray) -> np.ndarray:
@@ -44,7 +44,7 @@ def test_small_deviations_move_as_the_linear_model_says(
         start = [*quaternion_from_euler(y[6], y[7], 0.0), *momenta[0], *momenta[1]]
         end = solve_ivp(slope, (0.0, seconds), start, rtol=1e-12, atol=1e-14).y[:, -1]
         roll, pitch, _ = euler_from_quaternion_arrays(end[np.newaxis, :4] / np.linalg.norm(end[:4]))
-        V, Omega = velocity(tuple(end[4:7]), tuple(end[7:]), c, 1.0, p)
+        V, Omega = velocity(tuple(end[4:7]), tuple(end[7:]), placement(c, p, True), 1.0, p)
         return np.array([*flow_angles(V), *Omega, roll[0], pitch[0]])
 
     A = linearised((t.speed, t.angle_of_attack, t.sideslip, t.yaw_rate, t.roll, t.pitch, *c[:3]), water, p)

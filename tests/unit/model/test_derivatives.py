@@ -17,8 +17,8 @@ from glidercli.model.derivatives import (
     wrench_along,
 )
 from glidercli.model.equations import wrench
-from glidercli.model.hydrodynamics import flow_angles, velocity_from_flow
-from glidercli.model.mass import momentum
+from glidercli.model.hydrodynamics import flow_angles, forces_and_moments, velocity_from_flow
+from glidercli.model.mass import momentum, placement
 from glidercli.ocean import Water
 
 DENSE = Water(1030.0, 4e6, 4.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 9.79)
@@ -42,7 +42,19 @@ def test_wrench(c, V, Omega, attitude, d) -> None:  # type: ignore[no-untyped-de
         v, w, k = tuple(x[:3]), tuple(x[3:6]), tuple(x[6:9])
         cc = Controls(*x[9:12])
         Pm, Pi = momentum(v, w, cc, DENSE.density / p.rho_ref, p)
-        return np.hstack(wrench(v, w, Pm, Pi, k, cc, DENSE, p))
+        return np.hstack(
+            wrench(
+                v,
+                w,
+                Pm,
+                Pi,
+                *forces_and_moments(v, w, DENSE.density / p.rho_ref, p),
+                k,
+                placement(cc, p, False),
+                DENSE,
+                p,
+            )
+        )
 
     step = [*d[:9], dc.rrx, dc.gamma, dc.mb]
     expected = differences(f, [*V, *Omega, *k_b, c.rrx, c.gamma, c.mb], step)

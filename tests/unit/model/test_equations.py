@@ -9,9 +9,9 @@ from test_mass import P, controls, hat, matrix, vectors
 
 from glidercli.frames import quaternion_from_euler, rotation_ned_body
 from glidercli.model import Controls
-from glidercli.model.equations import State, rates, through_water
+from glidercli.model.equations import State, rates
 from glidercli.model.hydrodynamics import flow_angles, forces_and_moments, velocity_from_flow
-from glidercli.model.mass import momentum, movable_position
+from glidercli.model.mass import momentum, movable_position, placement, velocity
 from glidercli.ocean import Water
 
 STILL = Water(1025.0, 0.0, 15.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 9.81)
@@ -47,7 +47,7 @@ def test_rates_are_eq_19(c, V, Omega, attitude) -> None:  # type: ignore[no-unty
     k_b = rotation_ned_body(q)[2]
     Pm, Pi = momentum(V, Omega, c, 1.0, P)
     state = State((0.0, 0.0, 10.0), q, Pm, Pi)
-    r = rates(state, c, STILL, P, False)
+    r = rates(state, placement(c, P, False), STILL, P, False)
     h = 1e-5
 
     def nu_at(sign: float):  # type: ignore[no-untyped-def]
@@ -57,7 +57,7 @@ def test_rates_are_eq_19(c, V, Omega, attitude) -> None:  # type: ignore[no-unty
             tuple(a + sign * h * b for a, b in zip(Pm, r.P, strict=True)),
             tuple(a + sign * h * b for a, b in zip(Pi, r.Pi, strict=True)),
         )  # fmt: skip
-        return np.hstack(through_water(stepped, moved, STILL, P, False))
+        return np.hstack(velocity(stepped.P, stepped.Pi, placement(moved, P, False), 1.0, P))
 
     nudot = (nu_at(+1.0) - nu_at(-1.0)) / (2 * h)
     expected = printed(V, Omega, k_b, c, P)
@@ -86,7 +86,7 @@ def test_port_and_starboard_mirror(c, V, Omega, attitude) -> None:  # type: igno
         cc = c._replace(gamma=sign * c.gamma, gamma_rate=sign * c.gamma_rate)
         q = quaternion_from_euler(sign * roll, pitch, sign * heading)
         Pm, Pi = momentum((V[0], sign * V[1], V[2]), (sign * Omega[0], Omega[1], sign * Omega[2]), cc, 1.0, P)
-        return rates(State((0.0, 0.0, 5.0), q, Pm, Pi), cc, STILL, P, True)
+        return rates(State((0.0, 0.0, 5.0), q, Pm, Pi), placement(cc, P, True), STILL, P, True)
 
     a, b = run(1.0), run(-1.0)
     np.testing.assert_allclose(b.P, np.multiply(a.P, (1, -1, 1)), atol=1e-9)  # rounding of forces up to 1e3 N

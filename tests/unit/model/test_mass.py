@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from glidercli.model import Controls, Parameters, parameters
-from glidercli.model.mass import generalized_inertia, momentum, movable_position, velocity
+from glidercli.model.mass import generalized_inertia, momentum, movable_position, placement, velocity
 from glidercli.vehicle import load_vehicle
 
 P = parameters(load_vehicle("seawing"))
@@ -45,7 +45,7 @@ def test_momentum_is_the_matrix_times_velocity(c: Controls, V: tuple[float, ...]
 
 @given(controls, vectors, vectors, st.floats(0.9, 1.1))
 def test_velocity_inverts_momentum(c: Controls, V: tuple[float, ...], Omega: tuple[float, ...], dense: float) -> None:
-    back = velocity(*momentum(V, Omega, c, dense, P), c, dense, P)
+    back = velocity(*momentum(V, Omega, c, dense, P), placement(c, P, False), dense, P)
     np.testing.assert_allclose(np.hstack(back), [*V, *Omega], atol=1e-12)  # condition of M is below 100
 
 
@@ -56,8 +56,8 @@ def test_kinetic_energy_is_positive(c: Controls) -> None:
 
 def test_density_scales_only_the_added_part() -> None:
     c = Controls(0.42, 0.3, 0.0)
-    Mt, Ct, It = generalized_inertia(c, 2.0, P)
-    single = generalized_inertia(c, 1.0, P)
+    Mt, Ct, It = generalized_inertia(placement(c, P, False), 2.0, P)
+    single = generalized_inertia(placement(c, P, False), 1.0, P)
     np.testing.assert_allclose(np.subtract(Mt, single[0]), P.MA, rtol=1e-13)  # rounding
     np.testing.assert_allclose(np.subtract(It, single[2]), np.diag(P.IA), atol=1e-14)
     np.testing.assert_allclose(np.subtract(Ct, single[1]), [[0, 0, 0], [0, 0, P.Nv], [0, P.Mw, 0]], atol=1e-14)

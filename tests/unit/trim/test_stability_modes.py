@@ -11,9 +11,9 @@ from conftest import WORKED_EXAMPLE
 import glidercli
 from glidercli.frames import down_in_body, quaternion_from_euler, scale
 from glidercli.model import Controls, Parameters
-from glidercli.model.equations import State, rates, through_water
+from glidercli.model.equations import State, rates
 from glidercli.model.hydrodynamics import flow_angles, velocity_from_flow
-from glidercli.model.mass import momentum
+from glidercli.model.mass import momentum, placement, velocity
 from glidercli.ocean.water import Water
 from glidercli.trim.stability import DEVIATIONS, linearised, modes
 
@@ -23,7 +23,7 @@ def nonlinear(y: np.ndarray, c: Controls, water: Water, p: Parameters) -> np.nda
     V, Omega = velocity_from_flow(*y[:3]), tuple(y[3:6])
     P, Pi = momentum(V, Omega, c, water.density / p.rho_ref, p)
     q = quaternion_from_euler(y[6], y[7], 0.0)
-    r = rates(State((0.0, 0.0, 0.0), q, P, Pi), c, water, p, True)
+    r = rates(State((0.0, 0.0, 0.0), q, P, Pi), placement(c, p, True), water, p, True)
     h = 1e-6
 
     def at(sign: float) -> np.ndarray:
@@ -33,7 +33,7 @@ def nonlinear(y: np.ndarray, c: Controls, water: Water, p: Parameters) -> np.nda
             tuple(np.add(P, np.multiply(sign * h, r.P))),
             tuple(np.add(Pi, np.multiply(sign * h, r.Pi))),
         )
-        v, w = through_water(s, c, water, p, True)
+        v, w = velocity(s.P, s.Pi, placement(c, p, True), water.density / p.rho_ref, p)
         a, b, e, f = s.q_wxyz
         roll = math.atan2(2 * (a * b + e * f), 1 - 2 * (b * b + e * e))
         return np.array([*flow_angles(v), *w, roll, math.asin(2 * (a * e - f * b))])

@@ -1,10 +1,12 @@
-"""Which controls at which time? Held values, or a table of knots; linear between them."""
+"""What is a leg? What holds or steers the actuators on it, and what ends it."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Callable
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,39 +14,77 @@ from numpy.typing import NDArray
 from glidercli.errors import InputError
 from glidercli.files import readable_file
 from glidercli.origins import column_name, origins
+from glidercli.simulation.autopilot import GIVEN, Order
 
-__all__ = ["Schedule", "held", "read_schedule"]
+__all__ = ["Leg", "Situation", "held", "read_controls"]
 
 _COLUMNS = ("elapsed_s", "mass_position_m", "mass_rotation_deg", "net_buoyancy_kg")
 
 
+NO_ORDER = Order(GIVEN, 0.0, GIVEN, 0.0, 0.0, 0.0, 0.0, GIVEN, 0.0, 0.0, 0.0, 0.0, 0.0, math.inf, 0.0, math.inf)
+"""Of a leg whose controls stand in a table."""
+
+
 @dataclasses.dataclass(frozen=True)
-class Schedule:
-    """Controls of a leg.
+class Leg:
+    """A leg of a flight; it ends at the first of its ends.
 
     times : (n,) s from the start of the leg, increasing. values : (n, 3) mass position (m), mass rotation (rad), net
-    buoyancy (kg). until_depth : m, ends the leg; NaN where none does. Before the first and after the last knot the
-    controls are held. reconstructed : whether their file says that it is a reconstruction.
+        buoyancy (kg): a table of controls, linear between knots and held before the first and after the last. Empty
+        where ``order`` steers.
+    order : what the steering does, or what says so from the Situation at the start of the leg.
+    goes : "down", "up", or "" for whichever way ``until_depth`` lies.
+    until_depth : m. until_altitude : m over the bottom. duration : s. turns : of heading, either way. NaN or infinite
+        where the leg does not end so.
+    surface_ends : whether surfacing ends it; else the surface holds the vehicle and the leg goes on.
+    reconstructed : whether its controls come from a file that says that it is a reconstruction.
     """
 
     name: str
-    times: NDArray[np.float64]
-    values: NDArray[np.float64]
+    times: NDArray[np.float64] = dataclasses.field(default_factory=lambda: np.empty(0))
+    values: NDArray[np.float64] = dataclasses.field(default_factory=lambda: np.empty((0, 3)))
     until_depth: float = math.nan
     reconstructed: bool = False
+    order: Order | Callable[[Situation], Order] = NO_ORDER
+    goes: Literal["down", "up", ""] = ""
+    until_altitude: float = math.nan
+    duration: float = math.inf
+    turns: float = math.inf
+    surface_ends: bool = True
 
     def __post_init__(self) -> None:
         """Own, writable arrays: the compiled integrator then has one signature."""
         object.__setattr__(self, "times", np.array(self.times, dtype=np.float64, order="C"))
         object.__setattr__(self, "values", np.array(self.values, dtype=np.float64, order="C"))
 
+    @property
+    def steered(self) -> bool:
+        """Whether controllers set the actuators, not a table."""
+        return len(self.times) == 0
 
-def held(mass_position: float, mass_rotation: float, net_buoyancy: float) -> Schedule:
+
+@dataclasses.dataclass(frozen=True)
+class Situation:
+    """Where a leg begins: time (s), north, east and depth (m), the actuators, and the drift of the last dive.
+
+    controls : mass position (m), mass rotation (rad), net buoyancy (kg). current : (north, east), m/s, mean current of
+    the last submerged time as the difference of the way made good and the way through water; zero before there was one.
+    """
+
+    time: float
+    north: float
+    east: float
+    depth: float
+    controls: tuple[float, float, float]
+    current: tuple[float, float]
+
+
+def held(mass_position: float, mass_rotation: float, net_buoyancy: float) -> Leg:
     """Three controls held for the whole flight (SI, rad)."""
-    return Schedule("held", np.zeros(1), np.array([[mass_position, mass_rotation, net_buoyancy]]))
+    return Leg("held", np.zeros(1), np.array([[mass_position, mass_rotation, net_buoyancy]]))
 
 
-def read_schedule(path: Path, name: str, until_depth: float | None) -> Schedule:
+def read_controls(path: Path, name: str, until_depth: float | None) -> Leg:
     """Controls from a CSV table with elapsed_s, mass_position_m, mass_rotation_deg and net_buoyancy_kg."""
     import pandas as pd
 
@@ -74,4 +114,4 @@ def read_schedule(path: Path, name: str, until_depth: float | None) -> Schedule:
     ).astype(float)
     said = enumerate(table["origin"].fillna("").astype(str), start=2) if "origin" in table else ()
     reconstructed = "reconstruction" in origins(path, said)
-    return Schedule(name, times, values, math.nan if until_depth is None else until_depth, reconstructed)
+    return Leg(name, times, values, math.nan if until_depth is None else until_depth, reconstructed)
