@@ -43,6 +43,7 @@ test: lint
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/startup.py
 	$(BIN)/python benchmarks/trims.py
+	$(BIN)/python benchmarks/simulate.py
 	$(BIN)/python benchmarks/agreement.py
 
 clean:
