@@ -57,8 +57,8 @@ def main() -> None:
     for rtol in (1e-4, 1e-5, 1e-6, 1e-7, 1e-8):
         runs = [flown(rtol) for _ in range(RUNS)]
         wall = sorted(run.wall for run in runs)[RUNS // 2]
-        error = float(np.linalg.norm(runs[0].last[:3] - exact.last[:3]))
-        time = runs[0].duration
+        error = float(np.linalg.norm(runs[0].samples[-1, :3] - exact.samples[-1, :3]))
+        time = float(runs[0].times[-1])
         print(f"{rtol:6.0e} {time / wall:14,.0f} {runs[0].evaluations / time:12.1f} {error:15.1e} m")
 
 

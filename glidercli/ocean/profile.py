@@ -16,7 +16,7 @@ from glidercli.errors import InputError
 from glidercli.kernel import kernel
 from glidercli.ocean.source import listed
 
-__all__ = ["Profile", "cubic", "cubic_slope", "locate", "pchip", "wide_gaps"]
+__all__ = ["Profile", "cubic", "cubic_slope", "interval", "locate", "pchip", "wide_gaps"]
 
 
 _GAP_RATIO, _GAP_LEAST = 5.0, 5.0  # standard depths grow by less from step to step; m, below it little can hide
@@ -87,6 +87,19 @@ def wide_gaps(depth: NDArray[np.float64], what: str) -> tuple[str, ...]:
 
 
 @kernel
+def interval(knots: NDArray[np.float64], x: float) -> int:
+    """Index of the last knot that is not beyond x, by bisection; -1 where every knot is. Knots increase."""
+    low, high = -1, len(knots)
+    while high - low > 1:
+        middle = (low + high) // 2
+        if knots[middle] <= x:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@kernel
 def locate(profile: Profile, z: float) -> tuple[int, float, bool]:
     """The interval that holds depth z, m, the coordinate z - depth[i] in it, and whether z is beyond the ends.
 
@@ -98,13 +111,7 @@ def locate(profile: Profile, z: float) -> tuple[int, float, bool]:
         return 0, 0.0, True
     if z >= depth[last]:
         return last - 1, depth[last] - depth[last - 1], True
-    low, high = 0, last
-    while high - low > 1:
-        middle = (low + high) // 2
-        if depth[middle] <= z:
-            low = middle
-        else:
-            high = middle
+    low = interval(depth, z)
     return low, z - depth[low], False
 
 

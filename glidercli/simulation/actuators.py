@@ -9,7 +9,7 @@ from glidercli.kernel import kernel
 from glidercli.model.parameters import Controls, Parameters
 from glidercli.ocean.water import Water
 
-__all__ = ["Drives", "drive_pressure", "rate_towards", "time_to_move"]
+__all__ = ["Drives", "drive_pressure", "moving_controls", "time_to_move", "within"]
 
 
 class Drives(NamedTuple):
@@ -43,7 +43,7 @@ def drive_pressure(water: Water, depth: float) -> float:
 
 @kernel
 def pump_rate(mb: float, command: float, pressure: float, drives: Drives, p: Parameters) -> float:
-    """Rate of net buoyancy, kg/s: negative while oil is pumped out, slower with pressure, at least a tenth of it."""
+    """Rate of net buoyancy, kg/s: negative while oil is pumped out, slower with pressure, down to a tenth."""
     if command < mb:
         return -drives.pump_rate * max(0.1, 1.0 - drives.pump_slowing * pressure) * p.rho_0
     return drives.bleed_rate * p.rho_0
@@ -59,12 +59,6 @@ def rate_towards(value: float, command: float, rate: float) -> float:
 def time_to_move(value: float, command: float, rate: float) -> float:
     """Time until the command is reached, s; infinite if it is there."""
     return (command - value) / rate if rate != 0.0 else math.inf
-
-
-@kernel
-def stepped(value: float, command: float, rate: float, duration: float, arrives: bool) -> float:
-    """The value after a duration, s; exactly the command where it arrives."""
-    return command if arrives else value + rate * duration
 
 
 @kernel

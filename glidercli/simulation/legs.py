@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
@@ -16,12 +15,11 @@ from glidercli.files import readable_file
 from glidercli.origins import column_name, origins
 from glidercli.simulation.autopilot import GIVEN, Order
 
-__all__ = ["Leg", "Situation", "held", "read_controls"]
+__all__ = ["Leg", "held", "read_controls"]
 
 _COLUMNS = ("elapsed_s", "mass_position_m", "mass_rotation_deg", "net_buoyancy_kg")
 
-
-NO_ORDER = Order(GIVEN, 0.0, GIVEN, 0.0, 0.0, 0.0, 0.0, GIVEN, 0.0, 0.0, 0.0, 0.0, 0.0, math.inf, 0.0, math.inf)
+NO_ORDER = Order(GIVEN, 0.0, GIVEN, 0.0, 0.0, 0.0, 0.0, GIVEN, 0.0, 0.0, 0.0, 0.0, math.inf, 0.0, math.inf)
 """Of a leg whose controls stand in a table."""
 
 
@@ -32,7 +30,7 @@ class Leg:
     times : (n,) s from the start of the leg, increasing. values : (n, 3) mass position (m), mass rotation (rad), net
         buoyancy (kg): a table of controls, linear between knots and held before the first and after the last. Empty
         where ``order`` steers.
-    order : what the steering does, or what says so from the Situation at the start of the leg.
+    order : what the steering does.
     goes : "down", "up", or "" for whichever way ``until_depth`` lies.
     until_depth : m. until_altitude : m over the bottom. duration : s. turns : of heading, either way. NaN or infinite
         where the leg does not end so.
@@ -45,7 +43,7 @@ class Leg:
     values: NDArray[np.float64] = dataclasses.field(default_factory=lambda: np.empty((0, 3)))
     until_depth: float = math.nan
     reconstructed: bool = False
-    order: Order | Callable[[Situation], Order] = NO_ORDER
+    order: Order = NO_ORDER
     goes: Literal["down", "up", ""] = ""
     until_altitude: float = math.nan
     duration: float = math.inf
@@ -61,22 +59,6 @@ class Leg:
     def steered(self) -> bool:
         """Whether controllers set the actuators, not a table."""
         return len(self.times) == 0
-
-
-@dataclasses.dataclass(frozen=True)
-class Situation:
-    """Where a leg begins: time (s), north, east and depth (m), the actuators, and the drift of the last dive.
-
-    controls : mass position (m), mass rotation (rad), net buoyancy (kg). current : (north, east), m/s, mean current of
-    the last submerged time as the difference of the way made good and the way through water; zero before there was one.
-    """
-
-    time: float
-    north: float
-    east: float
-    depth: float
-    controls: tuple[float, float, float]
-    current: tuple[float, float]
 
 
 def held(mass_position: float, mass_rotation: float, net_buoyancy: float) -> Leg:

@@ -3,10 +3,10 @@
 The pair, its step control and its dense output are those of Dormand & Prince (1980) as given in Hairer, Norsett &
 Wanner, Solving Ordinary Differential Equations I, section II.5-6.
 
-The state is an array of 18: position (NED, m), attitude q_wxyz, momentum P and Pi through water, energy lost to the
-water (J), length of the horizontal track over ground (m), work of the pump against the sea's pressure (J), and the way
-that the current carried the vehicle north and east (m). Nothing depends on the horizontal position and on what follows
-the momentum, so these stay out of the error norm: a uniform current then changes neither step nor motion.
+The state is an array of 16: position (NED, m), attitude q_wxyz, momentum P and Pi through water, energy lost to the
+water (J), length of the horizontal track over ground (m), work of the pump against the sea's pressure (J). Nothing
+depends on the horizontal position, the energies or the track, so they stay out of the error norm: a uniform current
+then changes neither step nor motion.
 """
 
 from __future__ import annotations
@@ -25,18 +25,18 @@ from glidercli.ocean.water import Sea, at_depth
 from glidercli.simulation.actuators import drive_pressure
 
 __all__ = [
-    "DRIFT", "ENERGY", "PUMP_WORK", "SIZE", "TRACK", "WIDTH", "Segment", "controls_at", "dense", "error_norm",
+    "ENERGY", "PUMP_WORK", "SIZE", "TRACK", "WIDTH", "Segment", "controls_at", "dense", "error_norm",
     "segment_of", "slope_into", "stages", "state_of",
 ]  # fmt: skip
 
 Array = NDArray[np.float64]
 
-SIZE = 18
+SIZE = 16
 WIDTH = SIZE + 3
 """Of a row of slopes: the state's, and the velocity through water (m/s, body frame) that they were taken at."""
 
-ENERGY, TRACK, PUMP_WORK, DRIFT = 13, 14, 15, 16
-"""Columns of the state after the momentum; the drift takes two."""
+ENERGY, TRACK, PUMP_WORK = 13, 14, 15
+"""Columns of the state after the momentum."""
 
 
 class Segment(NamedTuple):
@@ -103,7 +103,6 @@ def slope_into(k: Array, i: int, t: float, y: Array, segment: Segment, sea: Sea,
     k[i, ENERGY] = r.power
     k[i, TRACK] = math.sqrt(r.position[0] * r.position[0] + r.position[1] * r.position[1])
     k[i, PUMP_WORK] = segment.oil_rate * drive_pressure(water, y[2])
-    k[i, DRIFT], k[i, DRIFT + 1] = water.current[0], water.current[1]
     k[i, SIZE], k[i, SIZE + 1], k[i, SIZE + 2] = r.V
 
 

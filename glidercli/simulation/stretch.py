@@ -11,340 +11,57 @@ at the surface it drifts with the current there.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.frames import Vector, dot, rotation_ned_body, scale, times, transposed
+from glidercli.frames import Vector, dot
 from glidercli.kernel import kernel
-from glidercli.model.buoyancy import hull_excess, pumped_excess
-from glidercli.model.mass import momentum, placement
-from glidercli.model.parameters import Controls, Parameters
-from glidercli.ocean.water import Sea, Water, at_depth
-from glidercli.simulation.actuators import Drives, drive_pressure, moving_controls, time_to_move
-from glidercli.simulation.autopilot import Order, commands
-from glidercli.simulation.reach import Range, note_angles, note_depth
-from glidercli.simulation.stepper import (
-    DRIFT,
-    PUMP_WORK,
-    SIZE,
-    TRACK,
-    WIDTH,
-    Segment,
-    controls_at,
-    dense,
-    error_norm,
-    segment_of,
-    slope_into,
-    stages,
-    state_of,
+from glidercli.model.parameters import Parameters
+from glidercli.ocean.water import Sea, at_depth
+from glidercli.simulation.actuators import Drives
+from glidercli.simulation.autopilot import Order
+from glidercli.simulation.holding import drift, held_until, rest
+from glidercli.simulation.locating import SURFACE, Ends, ended, turned, turning_point
+from glidercli.simulation.memory import (
+    APOGEE,
+    AT_DEPTH,
+    AT_SURFACE,
+    AT_TIME,
+    DIVES,
+    ERROR,
+    EVALUATIONS,
+    FIRST_STEP,
+    FREE,
+    GOING_ON,
+    GROUNDED,
+    GROUNDING,
+    HEADING,
+    HELD,
+    LIFTS,
+    ON_BOTTOM,
+    RESTED,
+    ROW,
+    STEP,
+    STEP_TOO_SMALL,
+    SURFACED,
+    SURFACING,
+    TURN,
+    T,
+    note_event,
 )
+from glidercli.simulation.reach import Range, note_angles, note_depth
+from glidercli.simulation.sampling import record
+from glidercli.simulation.segments import move_actuators, steered, tabled
+from glidercli.simulation.stepper import SIZE, WIDTH, Segment, controls_at, dense, error_norm, slope_into, stages
 
-__all__ = ["EVENTS", "Ends", "fly_stretch", "net_excess", "new_memory"]
+__all__ = ["fly_stretch"]
 
 Array = NDArray[np.float64]
 
-GOING_ON, AT_DEPTH, AT_TIME, TURNED, SURFACED, GROUNDED, STEP_TOO_SMALL = range(7)
-"""How a stretch ended."""
-
-FREE, AT_SURFACE, ON_BOTTOM = 0.0, 1.0, 2.0
-"""What holds the vehicle."""
-
-(
-    T, STEP, ERROR, RRX, GAMMA, MB, COMMAND_RRX, COMMAND_GAMMA, COMMAND_MB, LEG_START, SAMPLES, HEADING, TURN, HELD,
-    RESTED, ROW, SLIDING, ROTATING, PUMPING, BLEEDING, PUMPED, EVALUATIONS, LOGGED, LIMITS,
-) = range(24)  # fmt: skip
-"""What a flight remembers beside its state: time (s), next step (s), last error; actuators and commands (SI); start of
-the leg (s), samples of the controllers in it; heading at the last step and turn since the leg began (rad); what holds
-it, and whether it has come to rest there; next row to record; seconds that each motor ran, and m3 pumped out; calls of
-the right-hand side; events logged, and which limits were met in this leg (a sum of 1, 2, 4)."""
-
-EVENTS = (
-    "apogee", "surfacing", "grounding", "dive begins", "lift-off", "mass position at its limit",
-    "mass rotation at its limit", "oil at its limit",
-)  # fmt: skip
-APOGEE, SURFACING, GROUNDING, DIVES, LIFTS, SLIDE_LIMIT, ROTATION_LIMIT, OIL_LIMIT = range(8)
-
-SURFACE = 0.0
-FIRST_STEP = 0.05  # s; a fraction of the roll mode's period, the fastest there is
 _SMALLEST_STEP = 1e-9  # s
 _LARGEST_STEP = 30.0  # s: a tenth of the shortest leg that anybody flies
 _STABLE = 2.5  # time constants; the pair allows 3.3, coupling and density take some of the difference
-_NEUTRAL = 1e-12  # kg; rounding of a net buoyancy that has just become zero
-
-
-class Ends(NamedTuple):
-    """Where a leg ends; infinite where it does not."""
-
-    floor: float
-    """Depth reached going down, m."""
-    ceiling: float
-    """Depth reached going up, m."""
-    bottom: float
-    """m."""
-    time: float
-    """s from the start of the flight."""
-    turn: float
-    """rad, of heading, either way."""
-    surface_ends: bool
-    """Whether surfacing ends the leg; else the surface holds the vehicle and the leg goes on."""
-
-
-def new_memory(controls: tuple[float, float, float], heading: float) -> Array:
-    """The memory of a flight that begins with these actuators (SI) and heading, rad."""
-    m = np.zeros(24)
-    m[STEP], m[ERROR] = FIRST_STEP, 1e-4
-    m[RRX], m[GAMMA], m[MB] = m[COMMAND_RRX], m[COMMAND_GAMMA], m[COMMAND_MB] = controls
-    m[HEADING], m[ROW] = heading, 1.0
-    return m
-
-
-@kernel
-def net_excess(mb: float, water: Water, p: Parameters) -> float:
-    """Net buoyancy in the water, kg, sinking positive: what is pumped and what the hull displaces."""
-    return pumped_excess(mb, water.density, p) + hull_excess(water.density, water.pressure, water.temperature, p)
-
-
-@kernel
-def note_event(log: Array, m: Array, kind: int, t: float, depth: float) -> None:
-    """Add an event to the log (n, 3), unless it is full."""
-    n = int(m[LOGGED])
-    if n < log.shape[0]:
-        log[n, 0], log[n, 1], log[n, 2] = kind, t, depth
-    m[LOGGED] += 1.0
-
-
-@kernel
-def tabled(times_: Array, values: Array, m: Array, p: Parameters, full: bool) -> tuple[Segment, float]:
-    """The segment of a table of controls at the present time, and when it ends; held before the first and after the
-    last knot."""
-    since = m[T] - m[LEG_START]
-    low, high = -1, len(times_)
-    while high - low > 1:
-        middle = (low + high) // 2
-        if times_[middle] <= since:
-            low = middle
-        else:
-            high = middle
-    if low < 0 or low == len(times_) - 1:
-        i = max(low, 0)
-        stop = m[LEG_START] + times_[0] if low < 0 else math.inf
-        return segment_of(m[T], Controls(values[i, 0], values[i, 1], values[i, 2], 0.0, 0.0), 0.0, p, full), stop
-    span = times_[low + 1] - times_[low]
-    c = Controls(
-        values[low, 0],
-        values[low, 1],
-        values[low, 2],
-        (values[low + 1, 0] - values[low, 0]) / span,
-        (values[low + 1, 1] - values[low, 1]) / span,
-    )
-    mb_rate = (values[low + 1, 2] - values[low, 2]) / span
-    return segment_of(m[LEG_START] + times_[low], c, mb_rate, p, full), m[LEG_START] + times_[low + 1]
-
-
-@kernel
-def steered(
-    y: Array, m: Array, order: Order, drives: Drives, water: Water, p: Parameters, full: bool, log: Array
-) -> tuple[Segment, float]:
-    """The segment that the controllers and the motors make of the present time, and when it ends."""
-    t = m[T]
-    before = Controls(m[RRX], m[GAMMA], m[MB], 0.0, 0.0)
-    last = (m[COMMAND_RRX], m[COMMAND_GAMMA], m[COMMAND_MB])
-    tick = m[LEG_START] + m[SAMPLES] * order.period
-    if t >= tick or m[SAMPLES] == 0.0:
-        at = placement(before, p, False)
-        last = commands(order, drives, state_of(y), at, water, p, t - m[LEG_START], last)
-        m[COMMAND_RRX], m[COMMAND_GAMMA], m[COMMAND_MB] = last
-        m[SAMPLES] += 1.0
-        tick = m[LEG_START] + m[SAMPLES] * order.period
-        note_limits(y, m, order, drives, log)
-    c, mb_rate = moving_controls(m[RRX], m[GAMMA], m[MB], last, drive_pressure(water, y[2]), drives, p)
-    stop = tick
-    stop = min(stop, t + time_to_move(m[RRX], last[0], c.rrx_rate))
-    stop = min(stop, t + time_to_move(m[GAMMA], last[1], c.gamma_rate))
-    stop = min(stop, t + time_to_move(m[MB], last[2], mb_rate))
-    if mb_rate < 0.0:
-        stop = min(stop, t + drives.refresh)
-    return segment_of(t, c, mb_rate, p, full), stop
-
-
-@kernel
-def note_limits(y: Array, m: Array, order: Order, drives: Drives, log: Array) -> None:
-    """Log, once in a leg, that what is held asks for more than an actuator can give."""
-    met = int(m[LIMITS])
-    if order.holds_pitch and met % 2 == 0 and not drives.rrx_min < m[COMMAND_RRX] < drives.rrx_max:
-        note_event(log, m, SLIDE_LIMIT, m[T], y[2])
-        m[LIMITS] += 1.0
-    if order.holds_turn and met // 2 % 2 == 0 and not drives.gamma_min < m[COMMAND_GAMMA] < drives.gamma_max:
-        note_event(log, m, ROTATION_LIMIT, m[T], y[2])
-        m[LIMITS] += 2.0
-    if order.holds_buoyancy and met // 4 % 2 == 0 and not drives.mb_min < m[COMMAND_MB] < drives.mb_max:
-        note_event(log, m, OIL_LIMIT, m[T], y[2])
-        m[LIMITS] += 4.0
-
-
-@kernel
-def move_actuators(m: Array, segment: Segment, t: float, p: Parameters) -> None:
-    """Put the actuators where a segment has brought them by time t, s, and count what the motors ran."""
-    c, since = segment.controls, t - m[T]
-    now = controls_at(segment, t)
-    m[RRX] = settled(now.rrx, m[COMMAND_RRX])
-    m[GAMMA] = settled(now.gamma, m[COMMAND_GAMMA])
-    m[MB] = settled(now.mb, m[COMMAND_MB])
-    if c.rrx_rate != 0.0:
-        m[SLIDING] += since
-    if c.gamma_rate != 0.0:
-        m[ROTATING] += since
-    if segment.mb_rate < 0.0:
-        m[PUMPING] += since
-        m[PUMPED] -= segment.mb_rate * since / p.rho_0
-    elif segment.mb_rate > 0.0:
-        m[BLEEDING] += since
-
-
-@kernel
-def settled(value: float, command: float) -> float:
-    """The command where a value has reached it but for rounding."""
-    return command if abs(value - command) < 1e-12 else value
-
-
-@kernel
-def rest(y: Array, c: Controls, water: Water, p: Parameters, drifts: bool) -> None:
-    """Lay the vehicle level and at rest at its heading: in the water, if it drifts with it, else over ground."""
-    R = rotation_ned_body(state_of(y).q_wxyz)
-    heading = math.atan2(R[1][0], R[0][0])
-    y[3], y[4], y[5], y[6] = math.cos(0.5 * heading), 0.0, 0.0, math.sin(0.5 * heading)
-    V = (0.0, 0.0, 0.0)
-    if not drifts:
-        V = scale(-1.0, times(transposed(rotation_ned_body((y[3], y[4], y[5], y[6]))), water.current))
-    P, Pi = momentum(V, (0.0, 0.0, 0.0), c, water.density / p.rho_ref, p)
-    y[7], y[8], y[9] = P
-    y[10], y[11], y[12] = Pi
-
-
-@kernel
-def held_until(y: Array, m: Array, segment: Segment, stop: float, water: Water, p: Parameters) -> float:
-    """When the vehicle leaves surface or bottom: now, when a steady pump makes it neutral, or at ``stop``."""
-    down = 1.0 if m[HELD] == AT_SURFACE else -1.0
-    mb = controls_at(segment, m[T]).mb
-    if down * net_excess(mb, water, p) > -_NEUTRAL:
-        return float(m[T])
-    neutral = -hull_excess(water.density, water.pressure, water.temperature, p) * p.rho_0 / water.density
-    if down * segment.mb_rate > 0.0:
-        return min(stop, float(m[T]) + (neutral - mb) / segment.mb_rate)
-    return stop
-
-
-@kernel
-def record(row: Array, y: Array, c: Controls) -> None:
-    """One row of output: the state and the controls with their rates."""
-    for j in range(SIZE):
-        row[j] = y[j]
-    row[SIZE], row[SIZE + 1], row[SIZE + 2], row[SIZE + 3], row[SIZE + 4] = c
-
-
-@kernel
-def drift(
-    y: Array, m: Array, segment: Segment, stop: float, sea: Sea, every: float, out: Array, first: float, work: Array
-) -> None:
-    """Hold the vehicle until ``stop``, s: at the surface it goes with the current there, on the bottom nowhere."""
-    start = m[T]
-    U = at_depth(sea, y[2]).current
-    if m[HELD] == ON_BOTTOM:
-        U = (0.0, 0.0, 0.0)
-    length = math.sqrt(U[0] * U[0] + U[1] * U[1])
-    for j in range(SIZE):
-        work[j] = y[j]
-    while m[ROW] * every <= stop:
-        t = m[ROW] * every
-        work[0], work[1] = y[0] + U[0] * (t - start), y[1] + U[1] * (t - start)
-        work[TRACK] = y[TRACK] + length * (t - start)
-        record(out[int(m[ROW] - first)], work, controls_at(segment, t))
-        m[ROW] += 1.0
-    for j in range(2):
-        y[j] += U[j] * (stop - start)
-        y[DRIFT + j] += U[j] * (stop - start)
-    y[TRACK] += length * (stop - start)
-    y[PUMP_WORK] += segment.oil_rate * drive_pressure(at_depth(sea, y[2]), y[2]) * (stop - start)
-
-
-@kernel
-def depth_share(y: Array, new: Array, h: float, k: Array, depth: float, low: float, high: float, work: Array) -> float:
-    """Share of the step, between two shares, at which the depth passes a value, by bisection to rounding."""
-    dense(work, y, new, h, k, low)
-    below = work[2] < depth
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        dense(work, y, new, h, k, middle)
-        if (work[2] < depth) == below:
-            low = middle
-        else:
-            high = middle
-    return high
-
-
-@kernel
-def turning_point(y: Array, new: Array, h: float, k: Array, work: Array) -> tuple[float, float]:
-    """Share of a step at which the vehicle turns up or down, and the depth there, m, by ternary search.
-
-    The vertical velocity must change its sign over the step.
-    """
-    low, high = 0.0, 1.0
-    down = k[0, 2] > 0.0
-    for _ in range(40):
-        third = (high - low) / 3.0
-        dense(work, y, new, h, k, low + third)
-        before = work[2]
-        dense(work, y, new, h, k, high - third)
-        if (work[2] > before) == down:
-            low += third
-        else:
-            high -= third
-    dense(work, y, new, h, k, high)
-    return high, float(work[2])
-
-
-@kernel
-def turned(y: Array, before: float) -> float:
-    """Change of heading, rad, from ``before``, rad, the short way round."""
-    R = rotation_ned_body(state_of(y).q_wxyz)
-    change = math.atan2(R[1][0], R[0][0]) - before
-    return change - 2.0 * math.pi * math.floor(change / (2.0 * math.pi) + 0.5)
-
-
-@kernel
-def turn_share(y: Array, new: Array, h: float, k: Array, m: Array, turn: float, work: Array) -> float:
-    """Share of the step at which the heading has turned by so much, rad, since the leg began, by bisection."""
-    low, high = 0.0, 1.0
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        dense(work, y, new, h, k, middle)
-        if abs(m[TURN] + turned(work, m[HEADING])) < turn:
-            low = middle
-        else:
-            high = middle
-    return high
-
-
-@kernel
-def ended(y: Array, new: Array, h: float, k: Array, m: Array, ends: Ends, work: Array) -> tuple[int, float]:
-    """Whether the leg ends within a step, and at which share of it; the first of what ends it."""
-    status, share = GOING_ON, 1.0
-    top, bend = (1.0, new[2]) if k[0, 2] * k[6, 2] >= 0.0 else turning_point(y, new, h, k, work)
-    lowest, highest = max(new[2], bend), min(new[2], bend)
-    floor, ceiling = min(ends.floor, ends.bottom), max(ends.ceiling, SURFACE)
-    if lowest >= floor and y[2] < floor:
-        share = depth_share(y, new, h, k, floor, 0.0, top if bend >= floor else 1.0, work)
-        status = GROUNDED if ends.bottom <= ends.floor else AT_DEPTH
-    elif highest <= ceiling and y[2] > ceiling:
-        share = depth_share(y, new, h, k, ceiling, 0.0, top if bend <= ceiling else 1.0, work)
-        status = SURFACED if ceiling == SURFACE else AT_DEPTH
-    if ends.turn < math.inf and abs(m[TURN] + turned(new, m[HEADING])) >= ends.turn:
-        at = turn_share(y, new, h, k, m, ends.turn, work)
-        if at < share:
-            status, share = TURNED, at
-    return status, share
 
 
 @kernel
@@ -372,9 +89,8 @@ def fly_segment(
     m[EVALUATIONS] += 1.0
     while t < stop:
         left = stop - t
-        h = min(
-            m[STEP], _LARGEST_STEP, damped_step((k[0, SIZE], k[0, SIZE + 1], k[0, SIZE + 2]), segment, sea.gravity, p)
-        )
+        V = (k[0, SIZE], k[0, SIZE + 1], k[0, SIZE + 2])
+        h = min(m[STEP], _LARGEST_STEP, damped_step(V, segment, sea.gravity, p))
         last = h >= left * (1.0 - 1e-12)
         h = left if last else min(h, max(0.5 * left, _SMALLEST_STEP)) if h > 0.5 * left else h
         stages(y, t, h, k, new, segment, sea, p, full)
@@ -406,7 +122,7 @@ def fly_segment(
             dense(work, y, new, h, k, share)
             for j in range(SIZE):
                 y[j] = work[j]
-        if status == AT_DEPTH or status in (SURFACED, GROUNDED):
+        if status in (AT_DEPTH, SURFACED, GROUNDED):
             floor, ceiling = min(ends.floor, ends.bottom), max(ends.ceiling, SURFACE)
             y[2] = floor if abs(y[2] - floor) < abs(y[2] - ceiling) else ceiling
         norm = math.sqrt(y[3] ** 2 + y[4] ** 2 + y[5] ** 2 + y[6] ** 2)
@@ -437,10 +153,11 @@ def fly_stretch(
 ) -> int:  # fmt: skip
     """Fly on until a time, s, or the end of the leg; says which of GOING_ON, AT_DEPTH, ... it was.
 
-    y : (18,) state. m : (24,) memory; both go on from where they are. order, drives : what the leg asks of the steering
-    and how fast the actuators are; times_ (n,), values (n, 3) : a table of controls instead, empty where there is none.
-    every : s between rows; row i of the flight, at i every, goes into out (rows, 23), counted from the first of this
-    stretch. rtol : tolerance relative to scales + |state|; scales (18,), infinite for columns that do not count.
+    y : (SIZE,) state. m : memory (see memory.py); both go on from where they are.
+    order, drives : what the leg asks of the steering and how fast the actuators are.
+    times_ (n,), values (n, 3) : a table of controls instead, empty where there is none.
+    every : s between rows; row i of the flight, at i every, goes into out (rows, ROW_WIDTH), counted from the first of
+    this stretch. rtol : tolerance relative to scales + |state|; scales (SIZE,), infinite for columns that do not count.
     reached : widened at every step. log : (n, 3) kind, time, depth of events, m[LOGGED] of them.
     """
     k, new, work = np.zeros((7, WIDTH)), np.empty(SIZE), np.empty(SIZE)

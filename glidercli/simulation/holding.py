@@ -1,0 +1,88 @@
+"""What holds a vehicle at the surface or on the bottom, and until when? Its net buoyancy; meanwhile it lies level."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glidercli.frames import rotation_ned_body, scale, times, transposed
+from glidercli.kernel import kernel
+from glidercli.model.buoyancy import hull_excess, pumped_excess
+from glidercli.model.mass import momentum
+from glidercli.model.parameters import Controls, Parameters
+from glidercli.ocean.water import Sea, Water, at_depth
+from glidercli.simulation.actuators import drive_pressure
+from glidercli.simulation.memory import (
+    AT_SURFACE,
+    HELD,
+    ON_BOTTOM,
+    ROW,
+    T,
+)
+from glidercli.simulation.sampling import record
+from glidercli.simulation.stepper import PUMP_WORK, SIZE, TRACK, Segment, controls_at, state_of
+
+__all__ = ["drift", "held_until", "net_excess", "rest"]
+
+Array = NDArray[np.float64]
+
+_NEUTRAL = 1e-12  # kg; rounding of a net buoyancy that has just become zero
+
+
+@kernel
+def net_excess(mb: float, water: Water, p: Parameters) -> float:
+    """Net buoyancy in the water, kg, sinking positive: what is pumped and what the hull displaces."""
+    return pumped_excess(mb, water.density, p) + hull_excess(water.density, water.pressure, water.temperature, p)
+
+
+@kernel
+def rest(y: Array, c: Controls, water: Water, p: Parameters, drifts: bool) -> None:
+    """Lay the vehicle level and at rest at its heading: in the water, if it drifts with it, else over ground."""
+    R = rotation_ned_body(state_of(y).q_wxyz)
+    heading = math.atan2(R[1][0], R[0][0])
+    y[3], y[4], y[5], y[6] = math.cos(0.5 * heading), 0.0, 0.0, math.sin(0.5 * heading)
+    V = (0.0, 0.0, 0.0)
+    if not drifts:
+        V = scale(-1.0, times(transposed(rotation_ned_body((y[3], y[4], y[5], y[6]))), water.current))
+    P, Pi = momentum(V, (0.0, 0.0, 0.0), c, water.density / p.rho_ref, p)
+    y[7], y[8], y[9] = P
+    y[10], y[11], y[12] = Pi
+
+
+@kernel
+def held_until(y: Array, m: Array, segment: Segment, stop: float, water: Water, p: Parameters) -> float:
+    """When the vehicle leaves surface or bottom: now, when a steady pump makes it neutral, or at ``stop``."""
+    down = 1.0 if m[HELD] == AT_SURFACE else -1.0
+    mb = controls_at(segment, m[T]).mb
+    if down * net_excess(mb, water, p) > -_NEUTRAL:
+        return float(m[T])
+    neutral = -hull_excess(water.density, water.pressure, water.temperature, p) * p.rho_0 / water.density
+    if down * segment.mb_rate > 0.0:
+        return min(stop, float(m[T]) + (neutral - mb) / segment.mb_rate)
+    return stop
+
+
+@kernel
+def drift(
+    y: Array, m: Array, segment: Segment, stop: float, sea: Sea, every: float, out: Array, first: float, work: Array
+) -> None:
+    """Hold the vehicle until ``stop``, s: at the surface it goes with the current there, on the bottom nowhere."""
+    start = m[T]
+    U = at_depth(sea, y[2]).current
+    if m[HELD] == ON_BOTTOM:
+        U = (0.0, 0.0, 0.0)
+    length = math.sqrt(U[0] * U[0] + U[1] * U[1])
+    for j in range(SIZE):
+        work[j] = y[j]
+    while m[ROW] * every <= stop:
+        t = m[ROW] * every
+        work[0], work[1] = y[0] + U[0] * (t - start), y[1] + U[1] * (t - start)
+        work[TRACK] = y[TRACK] + length * (t - start)
+        record(out[int(m[ROW] - first)], work, controls_at(segment, t))
+        m[ROW] += 1.0
+    for j in range(2):
+        y[j] += U[j] * (stop - start)
+    y[TRACK] += length * (stop - start)
+    y[PUMP_WORK] += segment.oil_rate * drive_pressure(at_depth(sea, y[2]), y[2]) * (stop - start)
