@@ -127,19 +127,23 @@ class Log:
         )  # fmt: skip
         return dataclasses.replace(self, channels={n: c for n, c in parts.items() if len(c)}, events=events)
 
-    def table(self) -> pd.DataFrame:
+    def table(self, zero_ns: int | None = None) -> pd.DataFrame:
         """All channels as a table in the contract's names and units.
 
         First column time_utc (datetime64[ns], UTC without zone), second elapsed_s; rows at the union of all sample
         times, NaN (empty in CSV) where a channel has no sample.
+
+        zero_ns : where elapsed_s counts from, of a log that is a piece of another; default: the first row. Channels
+        without a sample are left out, unless the log is such a piece.
         """
         import pandas as pd
 
-        kept = [channel for channel in self.channels.values() if len(channel)]
+        kept = [channel for channel in self.channels.values() if len(channel) or zero_ns is not None]
         time_ns = np.unique(np.concatenate([channel.time_ns for channel in kept])) if kept else np.array([], np.int64)
+        zero = zero_ns if zero_ns is not None else time_ns[0] if len(time_ns) else 0
         columns: dict[str, object] = {
             "time_utc": time_ns.astype("datetime64[ns]"),
-            "elapsed_s": (time_ns - time_ns[0]) / 1e9 if len(time_ns) else np.array([], float),
+            "elapsed_s": (time_ns - zero) / 1e9,
         }
         for channel in kept:
             spec = CHANNELS[channel.name]

@@ -17,7 +17,7 @@ def missions(json: Json = False, quiet: Quiet = False, debug: Debug = False) -> 
     from glidercli import shipped
     from glidercli.simulation.mission import load_mission
 
-    _show({name: load_mission(name)[0].description for name in shipped.folders()}, "missions", json)
+    _show({name: load_mission(name)[0].description for name in shipped.missions()}, "missions", json)
 
 
 def _show(found: dict[str, str], what: str, json: bool) -> None:

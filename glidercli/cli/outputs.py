@@ -2,37 +2,96 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from glidercli.cli.printing import say
 from glidercli.errors import UsageError
 from glidercli.log import Log
 
-__all__ = ["check_log_outputs", "write_log"]
+if TYPE_CHECKING:
+    from glidercli.logio import Saving
+
+__all__ = ["Sink", "check_log_outputs", "log_sink", "write_log"]
 
 _STDOUT = Path("-")
 
 
-def check_log_outputs(paths: Sequence[Path], force: bool, json: bool) -> None:
-    """Refuse outputs that could not be written; standard output holds one document only."""
+def check_log_outputs(paths: Sequence[Path], force: bool, json: bool, pictures: bool = False) -> None:
+    """Refuse outputs that could not be written; standard output holds one document only.
+
+    pictures : whether the command draws figures, too.
+    """
     from glidercli.files import check_outputs
     from glidercli.logio import SUFFIXES
+    from glidercli.pictures import PICTURES
 
     if json and _STDOUT in paths:
         raise UsageError("-o - and --json both want stdout; leave one out")
-    check_outputs(paths, SUFFIXES, force)
+    check_outputs(paths, SUFFIXES + PICTURES if pictures else SUFFIXES, force)
 
 
 def write_log(log: Log, paths: Sequence[Path], force: bool, quiet: bool) -> None:
     """Write the log to every path, or to none; "-" is CSV on stdout."""
     from glidercli.logio import write
-    from glidercli.logio.csv_log import write_csv_stream
+    from glidercli.logio.csv_log import CsvTable
 
     files = [path for path in paths if path != _STDOUT]
     write(log, *files, force=force)
     if _STDOUT in paths:
-        write_csv_stream(log, sys.stdout)
+        CsvTable(sys.stdout).add(log)
     for path in files:
         say(f"wrote {path}", quiet)
+
+
+class Sink:
+    """Where a flight goes while it is flown, and when it is done; see ``log_sink``."""
+
+    def __init__(self, saving: Saving, pictures: Sequence[tuple[Path, Path]], files: Sequence[Path], stdout: bool):
+        """Begin. pictures : figure wanted, and the name that it has while it is drawn."""
+        self._saving, self._pictures, self._files, self._stdout = saving, pictures, files, stdout
+
+    @property
+    def piece(self) -> Callable[[Log], None] | None:
+        """What takes the log in pieces; None where something needs the whole of it."""
+        if self._pictures or self._stdout or not self._files or not self._saving.takes_pieces:
+            return None
+        return self._saving.add
+
+    def finish(self, log: Log) -> None:
+        """Write what is not yet written. log : the whole, or the last piece where pieces were taken."""
+        from glidercli.logio.csv_log import CsvTable
+
+        if self.piece is None:
+            self._saving.add(log)
+        self._saving.close(log)
+        for target, part in self._pictures:
+            from glidercli.pictures import save
+            from glidercli.simulation.figure import draw_flight
+
+            save(lambda: draw_flight(log), part, target)
+        if self._stdout:
+            CsvTable(sys.stdout).add(log)
+
+    def say(self, quiet: bool) -> None:
+        """Name what was written."""
+        for path in self._files:
+            say(f"wrote {path}", quiet)
+
+
+@contextlib.contextmanager
+def log_sink(paths: Sequence[Path], force: bool) -> Iterator[Sink]:
+    """The outputs of a flight: all appear when the block is left, or none; "-" is CSV on stdout."""
+    from glidercli.files import atomic
+    from glidercli.logio import saving
+    from glidercli.pictures import PICTURES
+
+    files = [path for path in paths if path != _STDOUT]
+    drawn = [path for path in files if path.suffix.lower() in PICTURES]
+    with contextlib.ExitStack() as pending:
+        pictures = [(path, pending.enter_context(atomic(path, force))) for path in drawn]
+        tables = pending.enter_context(saving([path for path in files if path not in drawn], force))
+        yield Sink(tables, pictures, files, _STDOUT in paths)

@@ -19,7 +19,7 @@ def replay(
     start: Annotated[str | None, typer.Option(metavar="T", help="From: ISO 8601 UTC, or s since the start.")] = None,
     end: Annotated[str | None, typer.Option(metavar="T", help="To, not included: ISO 8601 UTC, or s.")] = None,
     strict: Annotated[bool, typer.Option("--strict", help="A file that cannot be read is a failure.")] = False,
-    output: Annotated[list[Path] | None, output_option(".mcap .rrd .csv")] = None,
+    output: Annotated[list[Path] | None, output_option(".mcap .rrd .nc .parquet .csv")] = None,
     force: Force = False,
     json: Json = False,
     quiet: Quiet = False,

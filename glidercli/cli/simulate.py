@@ -12,12 +12,25 @@ from glidercli.cli.options import Debug, Equations, EquationsOption, Force, Json
 from glidercli.errors import UsageError
 
 
+_MOST_EVENTS = 40  # lines of the summary
+
+
 def simulate(
     mission: Annotated[
         str | None, typer.Argument(help="Mission: a TOML file or the name of a shipped one.", show_default=False)
     ] = None,
     ctd: Annotated[list[Path] | None, typer.Option(metavar="FILE", help="Cast of the water: .cnv or CSV.")] = None,
     adcp: Annotated[list[Path] | None, typer.Option(metavar="FILE", help="Current by depth: CSV.")] = None,
+    controls: Annotated[
+        str | None, typer.Option(metavar="LOG", help="Fly the actuators that a log recorded.", show_default=False)
+    ] = None,
+    initial: Annotated[
+        str | None, typer.Option(metavar="LOG", help="Begin as a log shows at its first depth.", show_default=False)
+    ] = None,
+    trim: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE|-", help="Begin in a trim, and hold its controls: what glider trim --json printed."),
+    ] = None,
     net_buoyancy: Annotated[float | None, typer.Option(help="Held net buoyancy, kg, sinking positive.")] = None,
     mass_position: Annotated[float | None, typer.Option(help="Held position of the movable mass, m.")] = None,
     mass_rotation: Annotated[float | None, typer.Option(help="Held rotation of the movable mass, deg.")] = None,
@@ -33,41 +46,55 @@ def simulate(
         ),
     ] = None,
     equations: EquationsOption = Equations.FULL,
-    output: Annotated[list[Path] | None, output_option(".mcap .rrd .csv")] = None,
+    output: Annotated[list[Path] | None, output_option(".mcap .rrd .nc .parquet .csv .png .svg .pdf")] = None,
     force: Force = False,
     json: Json = False,
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> None:
-    """Full dynamics through measured water and current, from rest."""
-    from glidercli.cli.outputs import check_log_outputs, write_log
+    """Full dynamics through measured water and current: a mission, held controls, or recorded ones."""
+    from glidercli.cli.logs_in import read_logs
+    from glidercli.cli.outputs import check_log_outputs, log_sink
     from glidercli.cli.printing import json_text, warn
+    from glidercli.cli.progress import progress
     from glidercli.provenance import provenance_json
     from glidercli.simulation import simulate as fly
+    from glidercli.simulation.start import read_trim
 
     cast, current = _one("--ctd", ctd), _one("--adcp", adcp)
     outputs = output or []
-    check_log_outputs(outputs, force, json)
-    flown = fly(
-        mission,
-        vehicle=vehicle,
-        net_buoyancy=net_buoyancy,
-        mass_position=mass_position,
-        mass_rotation=None if mass_rotation is None else math.radians(mass_rotation),
-        ctd=cast,
-        adcp=current,
-        duration=duration,
-        start_depth=start_depth,
-        latitude=latitude,
-        every=every,
-        rtol=rtol,
-        equations=equations.value,
-        outputs=outputs,
-    )
-    origin = "simulated, from a reconstruction" if "reconstruction" in flown.log.metadata else "simulated"
-    log = flown.log.with_metadata(provenance=provenance_json(inputs=flown.inputs, origin=origin))
-    warn(flown.warnings, quiet)
-    write_log(log, outputs, force, quiet)
+    check_log_outputs(outputs, force, json, pictures=True)
+    logs = read_logs({"controls": controls, "initial": initial})
+    first = None if trim is None else read_trim(trim)
+    files = [*logs.files, *([trim] if trim and str(trim) != "-" else [])]
+    with progress("flying", quiet) as told, log_sink(outputs, force) as sink:
+        flown = fly(
+            mission,
+            vehicle=vehicle,
+            net_buoyancy=net_buoyancy,
+            mass_position=mass_position,
+            mass_rotation=None if mass_rotation is None else math.radians(mass_rotation),
+            trim=first,
+            controls=logs.read.get("controls"),
+            initial=logs.read.get("initial"),
+            ctd=cast,
+            adcp=current,
+            duration=duration,
+            start_depth=start_depth,
+            latitude=latitude,
+            every=every,
+            rtol=rtol,
+            equations=equations.value,
+            outputs=outputs,
+            inputs=files,
+            piece=sink.piece,
+            progress=told,
+        )
+        origin = "simulated, from a reconstruction" if "reconstruction" in flown.log.metadata else "simulated"
+        log = flown.log.with_metadata(provenance=provenance_json(inputs=flown.inputs, origin=origin))
+        sink.finish(log)
+    warn([*logs.warnings, *flown.warnings], quiet)
+    sink.say(quiet)
     if json:
         print(json_text(flown.document()))
     elif Path("-") not in outputs:
@@ -81,19 +108,40 @@ def _one(option: str, files: list[Path] | None) -> Path | None:
     return files[0] if files else None
 
 
+def _span(seconds: float) -> str:
+    """A duration in s, and in hours or days where that says more."""
+    if seconds < 7200.0:
+        return f"{seconds:.1f} s"
+    return f"{seconds:.1f} s, " + (f"{seconds / 3600.0:.1f} h" if seconds < 172800.0 else f"{seconds / 86400.0:.1f} d")
+
+
 def _summary(d: dict[str, Any]) -> str:
     """The flight for people, a line each."""
     rate = d["simulated_seconds_per_second"]
     lines = [f"SIMULATED FROM A RECONSTRUCTION: {d['reconstruction']}"] if d["reconstruction"] else ["SIMULATED"]
+    energy = d["energy"]
     lines += [
-        f"{'duration':<17}{d['duration_s']:.1f} s",
+        f"{'duration':<17}{_span(d['duration_s'])}",
         f"{'maximum depth':<17}{d['max_depth_m']:.2f} m",
         f"{'distance':<17}{d['distance_m']:.1f} m over ground",
-        f"{'energy':<17}{d['energy_j']:.1f} J lost to the water",
+        f"{'energy':<17}{energy['total_j'] / 1e3:.2f} kJ: pump {energy['pump_j'] / 1e3:.2f}, slide "
+        f"{energy['slide_j'] / 1e3:.2f}, rotation {energy['rotation_j'] / 1e3:.2f}, hotel {energy['hotel_j'] / 1e3:.2f}",
+    ]
+    if energy["dives"]:
+        lines.append(f"{'per dive':<17}{energy['per_dive_j'] / 1e3:.2f} kJ, {energy['dives']} dives")
+    lines += [
+        f"{'on one battery':<17}{energy['endurance_s'] / 86400.0:.1f} days, {energy['range_m'] / 1e3:.0f} km over ground",
+        f"{'lost to water':<17}{energy['lost_to_water_j']:.1f} J",
         f"{'net buoyancy':<17}{d['final']['net_buoyancy_kg']:z.3f} kg pumped, {d['net_buoyancy_in_water_kg']:z.3f} kg "
         "in the water at the end",
     ]
-    lines += [f"{e['name']:<17}{e['time_s']:.1f} s, {e['depth_m']:z.2f} m" for e in d["events"]]
+    events = d["events"]
+    width = max(17, *(len(e["name"]) + 2 for e in events))
+    told = [f"{e['name']:<{width}}{e['time_s']:.1f} s, {e['depth_m']:z.2f} m" for e in events]
+    half = _MOST_EVENTS // 2
+    if len(told) > _MOST_EVENTS:
+        told[half:-half] = [f"... {len(told) - 2 * half} more events (--json has them all)"]
+    lines += told
     final = d["final"]
     lines += [
         f"{'at the end':<17}pitch {final['pitch_deg']:z.2f} deg, roll {final['roll_deg']:z.2f} deg, heading "

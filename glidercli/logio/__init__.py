@@ -3,6 +3,6 @@
 from glidercli.logio.reading import FORMATS, Reading, read
 from glidercli.logio.replaying import Replay, replay
 from glidercli.logio.report import FileReport
-from glidercli.logio.writing import SUFFIXES, write
+from glidercli.logio.writing import SUFFIXES, Saving, saving, write
 
-__all__ = ["FORMATS", "SUFFIXES", "FileReport", "Reading", "Replay", "read", "replay", "write"]
+__all__ = ["FORMATS", "SUFFIXES", "FileReport", "Reading", "Replay", "Saving", "read", "replay", "saving", "write"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TextIO, cast
 
@@ -18,7 +19,7 @@ from glidercli.logio.report import FileReport
 from glidercli.origins import BOTH, column_name, origins
 from glidercli.provenance import file_hash
 
-__all__ = ["is_csv", "read_csv", "write_csv", "write_csv_stream"]
+__all__ = ["CsvTable", "is_csv", "read_csv"]
 
 _EPOCH = "2000-01-01T00:00:00"
 """Start of a table that has elapsed_s alone; the same arbitrary date as for a flight without one."""
@@ -26,22 +27,31 @@ _YEARS = ("1700-01-01", "2200-01-01")
 """Times allowed: nanoseconds in 64 bits hold little more."""
 
 
-def write_csv_stream(log: Log, stream: TextIO) -> None:
-    """The log as CSV: first line the column names, empty where a channel has no sample; numbers to the last digit.
+class CsvTable:
+    """A log as CSV, piece by piece: first line the column names, empty where a channel has no sample; numbers to the
+    last digit.
 
     The last column says of every row what the log is, so that a table parted from its metadata is not taken for more.
     """
-    table = log.table()
-    table["time_utc"] = np.datetime_as_string(table["time_utc"].to_numpy(), unit="ns")
-    table["time_utc"] += "Z"
-    table["origin"] = origin_word(log.origin, log.metadata, {c.origin for c in log.channels.values() if len(c)})
-    table.to_csv(stream, index=False, lineterminator="\n")
 
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+        self._zero_ns: int | None = None
 
-def write_csv(log: Log, path: Path) -> None:
-    """The log as a CSV file."""
-    with path.open("w", encoding="utf-8", newline="") as stream:
-        write_csv_stream(log, stream)
+    def add(self, log: Log) -> None:
+        """Append a piece; all have the same channels."""
+        first = self._zero_ns is None
+        if first and any(map(len, log.channels.values())):
+            self._zero_ns = log.start_ns
+        table = log.table(self._zero_ns)
+        table["time_utc"] = np.datetime_as_string(table["time_utc"].to_numpy(), unit="ns")
+        table["time_utc"] += "Z"
+        table["origin"] = origin_word(log.origin, log.metadata, {c.origin for c in log.channels.values()})
+        table.to_csv(self._stream, index=False, header=first, lineterminator="\n")
+
+    def close(self, metadata: Mapping[str, Any]) -> None:
+        """Finish; the metadata stand beside the table, not in it."""
+        self._stream.flush()
 
 
 def is_csv(path: Path) -> bool:

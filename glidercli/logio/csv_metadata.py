@@ -15,7 +15,7 @@ from glidercli.log import Log, Origin
 from glidercli.origins import BOTH
 from glidercli.provenance import file_hash
 
-__all__ = ["origin_word", "read_metadata", "stranger", "write_metadata"]
+__all__ = ["metadata_of", "origin_word", "read_metadata", "stranger", "write_metadata"]
 
 _KINDS: dict[str, type] = {"origin": str, "metadata": dict, "channels": dict, "events": list}
 
@@ -27,20 +27,23 @@ def origin_word(origin: str, metadata: Mapping[str, Any], of_channels: Collectio
     return BOTH if origin == "measured" and "derived" in of_channels else origin
 
 
-def write_metadata(log: Log, path: Path, table: Path) -> None:
-    """Origin, metadata with provenance, the channels' origins, events; hash and span of time of the table."""
+def metadata_of(log: Log, span_ns: tuple[int, int] | None) -> dict[str, Any]:
+    """Origin, metadata with provenance, the channels' origins, events. span_ns : first and last time of the table."""
     told: dict[str, Any] = dict(log.metadata)
     if "provenance" in told:
         told["provenance"] = json.loads(told["provenance"])
-    kept = {name: channel.origin for name, channel in log.channels.items() if len(channel)}
-    document = {
+    return {
         "origin": log.origin,
         "metadata": told,
-        "channels": kept,
+        "channels": {name: channel.origin for name, channel in log.channels.items() if len(channel)},
         "events": [{"name": e.name, "time_ns": e.time_ns, "depth_m": e.depth} for e in log.events],
-        "span_ns": [log.start_ns, log.end_ns] if kept else None,
-        "table_sha256": file_hash(table),
+        "span_ns": list(span_ns) if span_ns else None,
     }
+
+
+def write_metadata(told: Mapping[str, Any], path: Path, table: Path) -> None:
+    """``metadata_of`` the log of a table, and the table's hash."""
+    document = {**told, "table_sha256": file_hash(table)}
     path.write_text(json.dumps(document, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
 
 

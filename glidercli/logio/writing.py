@@ -1,43 +1,94 @@
-"""How is a Log saved? One writer per ending; every output appears whole or not at all."""
+"""How is a Log saved? One writer per ending; every output appears whole or not at all.
+
+Tables (.csv, .parquet, .nc) are written piece by piece, so that a long flight needs no more memory than a short one;
+recordings for viewers (.mcap, .rrd) need the whole log.
+"""
 
 from __future__ import annotations
 
 import contextlib
+import dataclasses
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 from glidercli.errors import OutputError
 from glidercli.files import atomic, metadata_path
 from glidercli.log import Log
-from glidercli.logio.csv_log import write_csv
-from glidercli.logio.csv_metadata import write_metadata
+from glidercli.logio.csv_log import CsvTable
+from glidercli.logio.csv_metadata import metadata_of, write_metadata
 from glidercli.provenance import provenance_json
 
-__all__ = ["SUFFIXES", "write"]
+__all__ = ["SUFFIXES", "TABLES", "Saving", "saving", "write"]
 
-SUFFIXES = (".mcap", ".rrd", ".csv")
+TABLES = (".csv", ".parquet", ".nc")
+"""Endings that take a log in pieces."""
+SUFFIXES = (".mcap", ".rrd", *TABLES)
 """Endings that can be written."""
 
 
 def write(log: Log, *paths: str | Path, force: bool = False) -> None:
-    """Save a log; the ending picks the writer: .mcap (Foxglove, Lichtblick), .rrd (Rerun), .csv.
+    """Save a log; the ending picks the writer: .mcap (Foxglove, Lichtblick), .rrd (Rerun), .nc (CF), .parquet, .csv.
 
     All paths appear, or none. A log without provenance gets that of this process.
 
     force : replace files that exist; without it that is an OutputError.
     """
-    if "provenance" not in log.metadata:
-        log = log.with_metadata(provenance=provenance_json(origin=log.origin))
-    with contextlib.ExitStack() as pending:
-        for target in map(Path, paths):
-            if target.suffix.lower() not in SUFFIXES:
-                raise OutputError(
-                    target, f"unknown output {target.suffix or 'without ending'}; allowed: {' '.join(SUFFIXES)}"
-                )
-            part = pending.enter_context(atomic(target, force))
-            if target.suffix.lower() == ".csv":
-                write_csv(log, part)
-                write_metadata(log, pending.enter_context(atomic(metadata_path(target), force)), part)
-            elif target.suffix.lower() == ".mcap":
+    with saving([Path(path) for path in paths], force) as outputs:
+        outputs.add(log)
+        outputs.close(log)
+
+
+class Saving:
+    """Outputs in the making, under other names; see ``saving``."""
+
+    def __init__(self, parts: Sequence[tuple[str, Path, Path | None]], pending: contextlib.ExitStack) -> None:
+        """Begin. parts : ending, file to write to, and file of the metadata beside a CSV."""
+        self._whole = [(suffix, part) for suffix, part, _ in parts if suffix not in TABLES]
+        self._tables: list[tuple[Any, Path, Path | None]] = []
+        self._span: tuple[int, int] | None = None
+        self._origins: dict[str, Any] = {}
+        for suffix, part, beside in parts:
+            if suffix == ".csv":
+                table: Any = CsvTable(pending.enter_context(part.open("w", encoding="utf-8", newline="")))
+            elif suffix == ".parquet":
+                from glidercli.logio.parquet_log import ParquetTable
+
+                table = ParquetTable(part)
+            elif suffix == ".nc":
+                from glidercli.logio.netcdf_log import NetcdfTable
+
+                table = NetcdfTable(part)
+            else:
+                continue
+            self._tables.append((table, part, beside))
+
+    @property
+    def takes_pieces(self) -> bool:
+        """Whether no output needs the whole log."""
+        return not self._whole
+
+    def add(self, log: Log) -> None:
+        """Append a piece of the log, or all of it, to every table."""
+        if not self._tables:
+            return
+        for table, _, _ in self._tables:
+            table.add(log)
+        self._origins |= {name: c for name, c in log.channels.items() if len(c)}
+        if any(map(len, log.channels.values())):
+            self._span = (self._span[0] if self._span else log.start_ns, log.end_ns)
+
+    def close(self, log: Log) -> None:
+        """Finish: write what needs the whole log, and its events and metadata to the tables."""
+        if "provenance" not in log.metadata:
+            log = log.with_metadata(provenance=provenance_json(origin=log.origin))
+        told = metadata_of(dataclasses.replace(log, channels=self._origins), self._span)
+        for table, part, beside in self._tables:
+            table.close(told)
+            if beside is not None:
+                write_metadata(told, beside, part)
+        for suffix, part in self._whole:
+            if suffix == ".mcap":
                 from glidercli.logio.mcap_writer import write_mcap
 
                 write_mcap(log, part)
@@ -45,3 +96,21 @@ def write(log: Log, *paths: str | Path, force: bool = False) -> None:
                 from glidercli.logio.rerun_writer import write_rerun
 
                 write_rerun(log, part)
+
+
+@contextlib.contextmanager
+def saving(paths: Sequence[Path], force: bool) -> Iterator[Saving]:
+    """Outputs that get a log with ``add``, in pieces or whole, and then ``close``; all appear at the end, or none."""
+    with contextlib.ExitStack() as pending:
+        parts = []
+        for target in paths:
+            suffix = target.suffix.lower()
+            if suffix not in SUFFIXES:
+                raise OutputError(
+                    target, f"unknown output {target.suffix or 'without ending'}; allowed: {' '.join(SUFFIXES)}"
+                )
+            part = pending.enter_context(atomic(target, force))
+            beside = pending.enter_context(atomic(metadata_path(target), force)) if suffix == ".csv" else None
+            parts.append((suffix, part, beside))
+        with contextlib.ExitStack() as streams:
+            yield Saving(parts, streams)

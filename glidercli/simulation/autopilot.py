@@ -26,7 +26,7 @@ from glidercli.model.parameters import Parameters
 from glidercli.ocean.water import Water
 from glidercli.simulation.actuators import Drives, within
 
-__all__ = ["GIVEN", "HEADING", "HELD_PITCH", "IN_WATER", "RADIUS", "TURN_RATE", "Order", "commands"]
+__all__ = ["GIVEN", "HEADING", "HELD_PITCH", "IN_WATER", "RADIUS", "TURN_RATE", "Order", "commands", "pumped_for"]
 
 GIVEN = 0
 """The actuator goes where the order says."""
@@ -69,6 +69,15 @@ class Order(NamedTuple):
 
 
 @kernel
+def pumped_for(order: Order, water: Water, p: Parameters) -> float:
+    """Net buoyancy that the pump must give, kg: as ordered, or so that it is that in the water around."""
+    if order.holds_buoyancy == IN_WATER:
+        hull = hull_excess(water.density, water.pressure, water.temperature, p)
+        return (order.net_buoyancy - hull) * p.rho_0 / water.density
+    return order.net_buoyancy
+
+
+@kernel
 def commands(
     order: Order, drives: Drives, s: State, at: Placement, water: Water, p: Parameters, elapsed: float,
     last: tuple[float, float, float],
@@ -77,7 +86,7 @@ def commands(
 
     elapsed : s since the leg began. last : the commands before.
     """
-    rrx, gamma, mb = last
+    rrx, gamma, _ = last
     V, Omega = velocity(s.P, s.Pi, at, water.density / p.rho_ref, p)
     R = rotation_ned_body(s.q_wxyz)
     if order.holds_pitch == HELD_PITCH:
@@ -102,12 +111,8 @@ def commands(
             wanted = math.sqrt(north * north + east * east) / order.wanted
         change = order.gain * (wanted - turn)
         gamma += change if abs(change) > order.turn_band else 0.0
-    mb = order.net_buoyancy
-    if order.holds_buoyancy == IN_WATER:
-        hull = hull_excess(water.density, water.pressure, water.temperature, p)
-        mb = (mb - hull) * p.rho_0 / water.density
     return (
         within(rrx, drives.rrx_min, drives.rrx_max),
         within(gamma, drives.gamma_min, drives.gamma_max),
-        within(mb, drives.mb_min, drives.mb_max),
+        within(pumped_for(order, water, p), drives.mb_min, drives.mb_max),
     )

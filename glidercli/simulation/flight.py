@@ -5,18 +5,19 @@ from __future__ import annotations
 import dataclasses
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError, NoSolutionError
-from glidercli.frames import quaternion_from_euler
 from glidercli.kernel import compiled
-from glidercli.model.parameters import Parameters
+from glidercli.model.mass import momentum
+from glidercli.model.parameters import Controls, Parameters
 from glidercli.ocean.water import Sea, at_depth
-from glidercli.simulation.actuators import Drives
+from glidercli.simulation.actuators import Drives, within
+from glidercli.simulation.autopilot import Order, pumped_for
 from glidercli.simulation.holding import net_excess
 from glidercli.simulation.legs import Leg
 from glidercli.simulation.locating import SURFACE, Ends
@@ -24,7 +25,6 @@ from glidercli.simulation.memory import (
     APOGEE,
     AT_DEPTH,
     AT_SURFACE,
-    BLEEDING,
     COMMAND_MB,
     COMMAND_RRX,
     EVALUATIONS,
@@ -39,13 +39,12 @@ from glidercli.simulation.memory import (
     LOGGED,
     MB,
     PUMPED,
-    PUMPING,
-    ROTATING,
+    ROTATED,
     ROW,
     RRX,
     RRX_RATE,
     SAMPLES,
-    SLIDING,
+    SLID,
     STEP_TOO_SMALL,
     SURFACED,
     TURN,
@@ -54,6 +53,7 @@ from glidercli.simulation.memory import (
 )
 from glidercli.simulation.reach import range_of_none
 from glidercli.simulation.sampling import COLUMNS, ROW_WIDTH, observe
+from glidercli.simulation.start import REST, Start
 from glidercli.simulation.stepper import PUMP_WORK, SIZE, TRACK
 from glidercli.simulation.stretch import fly_stretch
 
@@ -62,7 +62,11 @@ __all__ = ["Excursion", "Flight", "FlightEvent", "Tallies", "fly"]
 Array = NDArray[np.float64]
 
 STRETCH = 600.0  # s; steps end at its multiples, so that a flight is the same however it is looked at
+LONGEST_LEG = 5 * 86400.0  # s; at 0.1 m/s the deepest trench is 30 hours away
 _MOST_EVENTS = 1000  # in a stretch
+_LOOKS = 500  # depths at which the net buoyancy of a leg is looked at
+_FAST = 0.6  # m/s; gliders of this kind sink no faster, and do not coast further
+_PIECE = 50_000  # samples given away at once, some 20 MB
 IDEAL = Drives(
     -math.inf, math.inf, math.inf, -math.inf, math.inf, math.inf, -math.inf, math.inf, math.inf, 0.0, math.inf, math.inf
 )
@@ -95,12 +99,11 @@ class Excursion:
 
 @dataclasses.dataclass(frozen=True)
 class Tallies:
-    """What the motors did: seconds that slide, rotation and pump ran, m3 pumped out, work against the sea in J."""
+    """What the motors did: travel of slide (m) and rotation (rad), either way; oil pumped out, m3, and its work against
+    the sea, J."""
 
-    sliding: float
-    rotating: float
-    pumping: float
-    letting_in: float
+    slid: float
+    rotated: float
     pumped: float
     pump_work: float
 
@@ -119,6 +122,7 @@ class Flight:
     events: tuple[FlightEvent, ...]
     excursions: tuple[Excursion, ...]
     depths: tuple[float, float]
+    start_depth: float
     distance: float
     excess: float
     tallies: Tallies
@@ -142,8 +146,7 @@ def fly(
     p: Parameters,
     *,
     duration: float = math.inf,
-    start_depth: float = 0.0,
-    heading: float = 0.0,
+    start: Start = REST,
     controls: tuple[float, float, float] | None = None,
     drives: Drives = IDEAL,
     bottom: float = math.inf,
@@ -152,45 +155,58 @@ def fly(
     full: bool = True,
     fitted_angle: float = math.inf,
     floats: bool = False,
+    give: Callable[[Array, Array], None] | None = None,
+    progress: Callable[[float, float], None] | None = None,
     plain: bool = False,
 ) -> Flight:
-    """Fly the legs from rest in the water, level, until the last ends or time is up.
+    """Fly the legs until the last ends or time is up.
 
-    duration, every : s. start_depth : m. heading : rad.
+    duration, every : s. start : the motion that it begins with; default: from rest in the water, level.
     controls : of the start (m, rad, kg); default what the table of the first leg begins with.
     drives : limits and rates of the actuators, for legs that are steered. bottom : m.
     rtol : relative tolerance of the integrator.
     full : the whole model; False leaves out the water's own acceleration and the momentum of the moving actuator.
     fitted_angle : rad, beyond which angle of attack and sideslip are noted as excursions.
     floats : whether a vehicle that is too light to leave the surface is held there; else that is an error.
+    give : gets times (n,) and samples (n, len(COLUMNS)) as they come, some ten thousand at a time; the Flight then
+        keeps the last of them only. progress : is told the time flown and ``duration``, s, now and then.
     plain : run the same source without numba, some hundred times slower; for tests.
 
     Raises
     ------
     InputError
-        The vehicle would only float: at the surface its net buoyancy lifts it.
+        The vehicle would only float: at the surface its net buoyancy lifts it; or a leg cannot end.
     NoSolutionError
         The step size fell below its limit: the motion cannot be integrated.
     """
     duration, rtol, every = float(duration), float(rtol), float(every)  # one signature, compiled once
     run: Any = fly_stretch if plain else compiled(fly_stretch)
     look: Any = observe if plain else compiled(observe)
-    y, m = _begin(start_depth, heading, controls or _first_controls(legs[0]), sea, p, floats)
-    reached, log = range_of_none(float(start_depth), float(fitted_angle)), np.zeros((_MOST_EVENTS, 3))
+    y, m = _begin(start, controls or _first_controls(legs[0]), sea, p, floats)
+    reached, log = range_of_none(float(start.depth), float(fitted_angle)), np.zeros((_MOST_EVENTS, 3))
     common = (rtol, scales_of(p), reached, log)
     events: list[FlightEvent] = []
     times, rows, ended_at, wall = [np.zeros(1)], [_row(y, m)], 0.0, 0.0
+
+    def samples_of(rows: list[Array]) -> Array:
+        states = np.vstack(rows)
+        samples = np.empty((len(states), len(COLUMNS)))
+        look(states, sea, p, full, samples)
+        return samples
+
     for number, leg in enumerate(legs):
         last_leg = number == len(legs) - 1
         ends = _ends(leg, y, m, last_leg, duration, bottom)
         m[LEG_START], m[SAMPLES], m[TURN], m[LIMITS] = m[T], 0.0, 0.0, 0.0
-        order = leg.order
+        order = _as_they_are(leg.order, m) if leg.keeps else leg.order
         commands = (order.mass_position, order.mass_rotation, order.net_buoyancy) if leg.steered else math.nan
         m[COMMAND_RRX : COMMAND_MB + 1] = commands
         given = (order, drives, leg.times, leg.values, ends, sea, p, full, every)
+        if leg.steered and np.isnan(leg.until_altitude) and math.isinf(min(leg.duration, leg.turns)):
+            _check_reach(leg.name, order, drives, float(y[2]), leg.until_depth, sea, p)
         run(y, m, -math.inf, *given, np.empty((0, ROW_WIDTH)), *common)  # compiles, if it must
         there = (leg.goes == "down" and y[2] >= ends.floor) or (leg.goes == "up" and y[2] <= ends.ceiling)
-        status, apogee = AT_DEPTH if there else GOING_ON, None
+        status, apogee, began_at = AT_DEPTH if there else GOING_ON, None, float(y[2])
         while status == GOING_ON:
             out = np.empty((int(STRETCH / every) + 2, ROW_WIDTH))
             first, began = int(m[ROW]), time.perf_counter()
@@ -198,6 +214,12 @@ def fly(
             wall += time.perf_counter() - began
             if status == STEP_TOO_SMALL:
                 raise NoSolutionError(f"the motion cannot be integrated beyond {m[T]:.3f} s at {y[2]:.2f} m")
+            if math.isinf(duration) and m[T] - m[LEG_START] > LONGEST_LEG and math.isinf(leg.duration):
+                raise InputError(
+                    f"leg {leg.name}",
+                    f"has not ended {LONGEST_LEG / 86400:g} days after it began, at {y[2]:.1f} m; needed is an end "
+                    "that it comes to, or duration_s",
+                )
             times.append(every * np.arange(first, int(m[ROW]), dtype=np.float64))
             rows.append(out[: int(m[ROW]) - first])
             for kind, at, depth in log[: int(m[LOGGED])].tolist():
@@ -207,19 +229,27 @@ def fly(
                 elif apogee is None or depth > apogee.depth:
                     apogee = event
             m[LOGGED] = 0.0
+            if progress is not None:
+                progress(float(m[T]), duration)
+            if give is not None and sum(map(len, times)) > _PIECE:
+                give(np.concatenate(times), samples_of(rows))
+                times, rows = [], []
         if m[T] > max(every * (m[ROW] - 1.0), ended_at):
             ended_at = float(m[T])
             times.append(np.full(1, ended_at))
             rows.append(_row(y, m))
-        events += [apogee] if apogee else []
+        if apogee is not None and apogee.depth >= max(float(y[2]), began_at):  # else a wobble on the way
+            events.append(apogee)
         over = last_leg or m[T] >= duration
         if status not in (SURFACED, GROUNDED):
             events.append(FlightEvent("end of flight" if over else f"end of {leg.name}", float(m[T]), float(y[2])))
         if over:
             break
-    states = np.vstack(rows)
-    samples = np.empty((len(states), len(COLUMNS)))
-    look(states, sea, p, full, samples)
+    if not times or not sum(map(len, times)):  # the last samples were given away
+        times, rows = [np.full(1, ended_at)], [_row(y, m)]
+    samples = samples_of(rows)
+    if give is not None:
+        give(np.concatenate(times), samples)
     names = ("angle of attack", "sideslip", "roll")
     angles = zip(names, reached.limits.tolist(), reached.angles.tolist(), strict=True)
     return Flight(
@@ -228,13 +258,12 @@ def fly(
         events=tuple(sorted(events, key=lambda event: event.time)),
         excursions=tuple(Excursion(name, limit, *row) for name, limit, row in angles if row[0] > 0.0),
         depths=(float(reached.depths[0, 0]), float(reached.depths[1, 0])),
+        start_depth=start.depth,
         distance=float(y[TRACK]),
         excess=net_excess(float(samples[-1, COLUMNS.index("net_buoyancy")]), at_depth(sea, float(y[2])), p),
         tallies=Tallies(
-            sliding=float(m[SLIDING]),
-            rotating=float(m[ROTATING]),
-            pumping=float(m[PUMPING]),
-            letting_in=float(m[BLEEDING]),
+            slid=float(m[SLID]),
+            rotated=float(m[ROTATED]),
             pumped=float(m[PUMPED]),
             pump_work=float(y[PUMP_WORK]),
         ),
@@ -243,21 +272,28 @@ def fly(
     )
 
 
+def _as_they_are(order: Order, m: Array) -> Order:
+    """The order that leaves the actuators where they are."""
+    return order._replace(mass_position=float(m[RRX]), mass_rotation=float(m[GAMMA]), net_buoyancy=float(m[MB]))
+
+
 def _first_controls(leg: Leg) -> tuple[float, float, float]:
     return float(leg.values[0, 0]), float(leg.values[0, 1]), float(leg.values[0, 2])
 
 
 def _begin(
-    depth: float, heading: float, controls: tuple[float, float, float], sea: Sea, p: Parameters, floats: bool
+    start: Start, controls: tuple[float, float, float], sea: Sea, p: Parameters, floats: bool
 ) -> tuple[Array, Array]:
     """State and memory of the start; a vehicle too light for the surface is held there, or refused."""
     y = np.zeros(SIZE)
-    y[2] = depth
-    y[3:7] = quaternion_from_euler(0.0, 0.0, heading)
-    m = new_memory(controls, heading)
+    y[2] = start.depth
+    y[3:7] = start.q_wxyz
+    water = at_depth(sea, start.depth)
+    y[7:10], y[10:13] = momentum(start.V, start.Omega, Controls(*controls, 0.0, 0.0), water.density / p.rho_ref, p)
+    m = new_memory(controls, start.heading)
     mb = controls[2]
-    excess = net_excess(mb, at_depth(sea, depth), p)
-    if depth <= SURFACE and excess <= 0.0:
+    excess = net_excess(mb, water, p)
+    if start.depth <= SURFACE and excess <= 0.0:
         if not floats:
             raise InputError(
                 "net buoyancy",
@@ -266,6 +302,30 @@ def _begin(
             )
         m[HELD] = AT_SURFACE
     return y, m
+
+
+def _check_reach(name: str, order: Order, drives: Drives, depth: float, until: float, sea: Sea, p: Parameters) -> None:
+    """Refuse a leg that ends at a depth, m, which its net buoyancy does not carry it to.
+
+    A vehicle coasts through a layer that lifts it as far as its kinetic energy goes. Water that moves up or down may
+    carry it anywhere, and is not judged.
+    """
+    if (sea.current.coefficients[:, :, 2] != 0.0).any():
+        return
+    way = 1.0 if until > depth else -1.0
+    steps = np.linspace(depth, until, _LOOKS)
+    work = 0.0
+    for z in steps:
+        water = at_depth(sea, float(z))
+        mb = within(pumped_for(order, water, p), drives.mb_min, drives.mb_max)
+        excess = net_excess(mb, water, p)
+        work = max(0.0, work - way * excess * water.gravity * abs(until - depth) / _LOOKS)
+        if work > 0.5 * (p.ms + p.mr + max(p.MA)) * _FAST**2:
+            raise InputError(
+                f"leg {name}",
+                f"cannot end: at {z:.1f} m its net buoyancy in the water is {excess:.3g} kg (sinking positive), which "
+                f"does not carry it to until_depth_m = {until:g}",
+            )
 
 
 def _row(y: Array, m: Array) -> Array:
@@ -290,4 +350,5 @@ def _ends(leg: Leg, y: Array, m: Array, last: bool, duration: float, bottom: flo
         time=stop,
         turn=2.0 * math.pi * float(leg.turns),
         surface_ends=leg.surface_ends,
+        bottom_ends=leg.bottom_ends,
     )

@@ -34,7 +34,9 @@ class Leg:
     goes : "down", "up", or "" for whichever way ``until_depth`` lies.
     until_depth : m. until_altitude : m over the bottom. duration : s. turns : of heading, either way. NaN or infinite
         where the leg does not end so.
-    surface_ends : whether surfacing ends it; else the surface holds the vehicle and the leg goes on.
+    surface_ends, bottom_ends : whether surfacing or grounding ends it; else the vehicle is held there and the leg goes
+        on.
+    keeps : whether the actuators stay where the leg finds them, whatever the order says.
     reconstructed : whether its controls come from a file that says that it is a reconstruction.
     """
 
@@ -49,6 +51,8 @@ class Leg:
     duration: float = math.inf
     turns: float = math.inf
     surface_ends: bool = True
+    bottom_ends: bool = True
+    keeps: bool = False
 
     def __post_init__(self) -> None:
         """Own, writable arrays: the compiled integrator then has one signature."""

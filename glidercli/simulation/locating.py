@@ -35,6 +35,8 @@ class Ends(NamedTuple):
     """rad, of heading, either way."""
     surface_ends: bool
     """Whether surfacing ends the leg; else the surface holds the vehicle and the leg goes on."""
+    bottom_ends: bool
+    """The same of grounding."""
 
 
 @kernel

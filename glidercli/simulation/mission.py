@@ -1,4 +1,4 @@
-"""What is to be flown? A mission file: its water and current, where and when it starts, its legs and controls.
+"""What is to be flown? A mission file: its water and current, where and when it starts, its legs.
 
 name = "..."                    description = "..."
 reconstruction = "..."          what is reconstructed and from what; marks every output. Leave out for a plan.
@@ -9,59 +9,332 @@ start_time = 2011-07-20T04:28:00Z
 latitude = 7.0                  deg; sets gravity. longitude = 130.0 places the track
 heading_deg = 50.0              of the start; start_depth_m = 0.0
 neutral_density_kg_m3 = 1022.0  ballasted so that zero net buoyancy is neutral there; default: the vehicle's
+bottom_m = 1000.0               default: none
 duration_s = 6120.0             the flight ends here at the latest
 
-[[leg]]
-name = "dive"
-controls = "dive.csv"           elapsed_s (of the leg), mass_position_m, mass_rotation_deg, net_buoyancy_kg
-until_depth_m = 800.0           optional: the leg ends there, else with its controls or the flight
+[[leg]]                         one after the other; docs/missions.md shows every kind
+kind = "dive"                   dive, climb, spiral, hold-heading, drift, wait, controls
+pitch_deg = -30.0
+net_buoyancy_kg = 0.3
+until_depth_m = 800.0
+
+[actuators]                     limits and rates in place of the vehicle's
+[steering]                      period, dead bands and gains of the controllers
 """
 
 from __future__ import annotations
 
 import datetime
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
+from pydantic import ConfigDict, Discriminator, Field, Tag, TypeAdapter, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 
 from glidercli import shipped
 from glidercli.errors import InputError
 from glidercli.files import read_toml
 
-__all__ = ["Leg", "Mission", "load_mission"]
+__all__ = [
+    "ActuatorChanges", "Climb", "ControlsLeg", "Dive", "Drift", "HoldHeading", "Mission", "MissionLeg", "Repeat",
+    "Spiral", "Steering", "Targets", "Wait", "flat", "load_mission",
+]  # fmt: skip
 
 _CONFIG = ConfigDict(extra="forbid", strict=False)
+LONGEST = 1e8  # s, three years: more than any battery lasts; times are kept to 1e-8 s up to there
+MOST_LEGS = 100_000
 
 
-@dataclass(frozen=True, config=_CONFIG)
-class Leg:
-    """One leg: its controls, and the depth that ends it."""
+def _number(least: float, most: float) -> Any:
+    """The range of a number, both ends allowed."""
+    return Field(ge=least, le=most, allow_inf_nan=False)
 
-    name: str
+
+def _positive(most: float) -> Any:
+    """A range that begins above zero."""
+    return Field(gt=0.0, le=most, allow_inf_nan=False)
+
+
+Depth = Annotated[float, _number(0.0, 12000.0)]
+Seconds = Annotated[float, _positive(LONGEST)]
+Heading = Annotated[float, _number(-360.0, 360.0)]
+Buoyancy = Annotated[float, _number(-100.0, 100.0)]
+
+
+@dataclass(frozen=True, config=_CONFIG, kw_only=True)
+class Ends:
+    """What ends a leg: the first of these that comes about. Surface and bottom do, too."""
+
+    name: str | None = None
+    """In the events; default: the kind."""
+    until_depth_m: Depth | None = None
+    until_altitude_m: Annotated[float, _number(0.0, 12000.0)] | None = None
+    """Over bottom_m."""
+    duration_s: Seconds | None = None
+    turns: Annotated[float, _positive(1e6)] | None = None
+    """Of heading, either way."""
+
+    def _ends(self) -> list[str]:
+        """A fault if nothing ends the leg."""
+        given = (self.until_depth_m, self.until_altitude_m, self.duration_s, self.turns)
+        if all(item is None for item in given):
+            return ["cannot end; needed is one of until_depth_m, until_altitude_m, duration_s, turns"]
+        return []
+
+
+@dataclass(frozen=True, config=_CONFIG, kw_only=True)
+class Targets(Ends):
+    """What the steering holds on a leg: pitch or a mass position; one way to turn; a net buoyancy."""
+
+    pitch_deg: Annotated[float, _number(-80.0, 80.0)] | None = None
+    mass_position_m: Annotated[float, _number(-5.0, 5.0)] | None = None
+    heading_deg: Heading | None = None
+    turn_rate_deg_s: Annotated[float, _number(-30.0, 30.0)] | None = None
+    turning_radius_m: Annotated[float, _number(-1e5, 1e5)] | None = None
+    """Starboard positive."""
+    mass_rotation_deg: Annotated[float, _number(-180.0, 180.0)] | None = None
+    rotation_on_s: Seconds | None = None
+    """The rotation is held so long, returns to zero for rotation_off_s, and so on: the trial's intermittent return."""
+    rotation_off_s: Seconds | None = None
+    net_buoyancy_kg: Buoyancy | None = None
+    """Pumped."""
+    net_buoyancy_in_water_kg: Buoyancy | None = None
+    """Held in the water around, whose density changes: the pump follows."""
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        faults = [*self._ends(), *self._targets(), *self._of_kind()]
+        if faults:
+            raise ValueError("; ".join(faults))
+        return self
+
+    def _targets(self) -> list[str]:
+        """Faults of targets that are missing or contradict each other."""
+        faults = []
+        for what, names in (
+            ("pitch", ("pitch_deg", "mass_position_m")),
+            ("buoyancy", ("net_buoyancy_kg", "net_buoyancy_in_water_kg")),
+        ):
+            given = [name for name in names if getattr(self, name) is not None]
+            if len(given) != 1:
+                has = "has both " + " and ".join(given) if given else f"has no {what}"
+                faults.append(f"{has}; needed is one of {', '.join(names)}")
+        turns = ("heading_deg", "turn_rate_deg_s", "turning_radius_m", "mass_rotation_deg")
+        given = [name for name in turns if getattr(self, name) is not None]
+        if len(given) > 1:
+            faults.append(f"has {' and '.join(given)}; at most one of them can be held")
+        if (self.rotation_on_s is None) != (self.rotation_off_s is None):
+            faults.append("rotation_on_s and rotation_off_s go together")
+        if self.rotation_on_s is not None and self.mass_rotation_deg is None:
+            faults.append("rotation_on_s needs mass_rotation_deg, the rotation that is held meanwhile")
+        if self.turning_radius_m == 0.0:
+            faults.append("turning_radius_m = 0, allowed any other from -1e5 to 1e5, starboard positive")
+        return faults
+
+    def _of_kind(self) -> list[str]:
+        """Faults that only this kind of leg can have."""
+        return []
+
+
+@dataclass(frozen=True, config=_CONFIG, kw_only=True)
+class Dive(Targets):
+    """Down, straight unless told to turn."""
+
+    kind: Literal["dive"] = "dive"
+
+    def _of_kind(self) -> list[str]:
+        return _one_way(self, -1.0)
+
+
+@dataclass(frozen=True, config=_CONFIG, kw_only=True)
+class Climb(Targets):
+    """Up, straight unless told to turn; to the surface with until_depth_m = 0."""
+
+    kind: Literal["climb"] = "climb"
+
+    def _of_kind(self) -> list[str]:
+        altitude = self.until_altitude_m is not None
+        return [*_one_way(self, 1.0), *(["until_altitude_m is for legs that go down"] if altitude else [])]
+
+
+@dataclass(frozen=True, config=_CONFIG, kw_only=True)
+class Spiral(Targets):
+    """Turning steadily: a turning radius, a turn rate or a mass rotation; down or up as the buoyancy has it."""
+
+    kind: Literal["spiral"] = "spiral"
+
+    def _of_kind(self) -> list[str]:
+        if self.heading_deg is not None:
+            return ["heading_deg is for legs that go straight; a spiral holds its turn"]
+        if not (self.turning_radius_m or self.turn_rate_deg_s or self.mass_rotation_deg):
+            return ["does not turn; needed is one of turning_radius_m, turn_rate_deg_s, mass_rotation_deg, not 0"]
+        return []
+
+
+@dataclass(frozen=True, config=_CONFIG, kw_only=True)
+class HoldHeading(Targets):
+    """Along a heading, down or up as the buoyancy has it."""
+
+    kind: Literal["hold-heading"] = "hold-heading"
+
+    def _of_kind(self) -> list[str]:
+        return [] if self.heading_deg is not None else ["has no heading_deg"]
+
+
+@dataclass(frozen=True, config=_CONFIG, kw_only=True)
+class Drift:
+    """At the surface with the current, pumped as light as the actuators allow; comes up first if it is below."""
+
+    duration_s: Seconds
+    kind: Literal["drift"] = "drift"
+    name: str | None = None
+
+
+@dataclass(frozen=True, config=_CONFIG, kw_only=True)
+class Wait:
+    """The actuators rest where they are."""
+
+    duration_s: Seconds
+    kind: Literal["wait"] = "wait"
+    name: str | None = None
+
+
+@dataclass(frozen=True, config=_CONFIG, kw_only=True)
+class ControlsLeg:
+    """Actuators from a table, without limits or rates: elapsed_s (of the leg), mass_position_m, mass_rotation_deg,
+    net_buoyancy_kg; ends at a depth, else with the table or, as the last leg, with the flight."""
+
     controls: str
-    until_depth_m: float | None = Field(default=None, ge=0.0, le=12000.0, allow_inf_nan=False)
+    kind: Literal["controls"] = "controls"
+    name: str | None = None
+    until_depth_m: Depth | None = None
 
 
-@dataclass(frozen=True, config=_CONFIG)
+@dataclass(frozen=True, config=_CONFIG, kw_only=True)
+class Repeat:
+    """Legs flown so many times; they may hold repeats themselves."""
+
+    repeat: Annotated[int, Field(ge=1, le=MOST_LEGS)]
+    leg: tuple[MissionLeg, ...] = Field(min_length=1)
+
+
+_KINDS = ("dive", "climb", "spiral", "hold-heading", "drift", "wait", "controls", "repeat")
+
+
+def _kind(given: Any) -> Any:
+    """The kind of a leg: said, or seen from what only that kind has."""
+    if not isinstance(given, dict):
+        return getattr(given, "kind", "repeat")
+    implied = next((name for name in ("repeat", "controls") if name in given), None)
+    return given.get("kind", implied)
+
+
+MissionLeg = Annotated[
+    Annotated[Dive, Tag("dive")] | Annotated[Climb, Tag("climb")] | Annotated[Spiral, Tag("spiral")]
+    | Annotated[HoldHeading, Tag("hold-heading")] | Annotated[Drift, Tag("drift")] | Annotated[Wait, Tag("wait")]
+    | Annotated[ControlsLeg, Tag("controls")] | Annotated[Repeat, Tag("repeat")],
+    Discriminator(_kind),
+]  # fmt: skip
+
+
+@dataclass(frozen=True, config=_CONFIG, kw_only=True)
+class ActuatorChanges:
+    """Limits and rates in place of the vehicle's own."""
+
+    mass_position_min_m: Annotated[float, _number(-5.0, 5.0)] | None = None
+    mass_position_max_m: Annotated[float, _number(-5.0, 5.0)] | None = None
+    mass_position_rate_mm_s: Annotated[float, _number(0.01, 1000.0)] | None = None
+    mass_rotation_min_deg: Annotated[float, _number(-180.0, 180.0)] | None = None
+    mass_rotation_max_deg: Annotated[float, _number(-180.0, 180.0)] | None = None
+    mass_rotation_rate_deg_s: Annotated[float, _number(0.01, 360.0)] | None = None
+    net_buoyancy_min_kg: Buoyancy | None = None
+    net_buoyancy_max_kg: Buoyancy | None = None
+    pump_rate_cm3_s: Annotated[float, _number(0.01, 1e5)] | None = None
+    pump_slowing_per_dbar: Annotated[float, _number(0.0, 0.01)] | None = None
+    return_rate_cm3_s: Annotated[float, _number(0.01, 1e5)] | None = None
+
+
+@dataclass(frozen=True, config=_CONFIG, kw_only=True)
+class Steering:
+    """The controllers: how often they look, how much they leave alone, how hard they pull (simulation/autopilot.py)."""
+
+    period_s: Annotated[float, _number(0.1, 3600.0)] = 6.0
+    """The trial's sampling."""
+    pitch_band_deg: Annotated[float, _number(0.0, 30.0)] = 0.5
+    pitch_gain: Annotated[float, _positive(1.0)] = 0.1
+    """Share of the mass position's error, by static balance, that a sample takes back."""
+    heading_band_deg: Annotated[float, _number(0.0, 45.0)] = 0.5
+    """A change of rotation below it is left alone."""
+    heading_gain: Annotated[float, _positive(100.0)] = 1.0
+    """deg of rotation for a deg of heading."""
+    turn_gain_s: Annotated[float, _positive(1e4)] = 20.0
+    """deg of rotation for a deg/s of turn rate, a sample."""
+
+
+@dataclass(frozen=True, config=_CONFIG, kw_only=True)
 class Mission:
     """A mission as its file gives it; paths are relative to the file."""
 
     name: str
     description: str
-    leg: tuple[Leg, ...] = Field(min_length=1)
-    duration_s: float = Field(gt=0.0, le=1e8, allow_inf_nan=False)
+    leg: tuple[MissionLeg, ...] = Field(min_length=1)
+    duration_s: Seconds | None = None
     vehicle: str = "seawing"
     reconstruction: str | None = None
     ctd: str | None = None
     adcp: str | None = None
     start_time: datetime.datetime | None = None
-    latitude: float | None = Field(default=None, ge=-90.0, le=90.0, allow_inf_nan=False)
-    longitude: float | None = Field(default=None, ge=-180.0, le=360.0, allow_inf_nan=False)
-    heading_deg: float = Field(default=0.0, ge=-360.0, le=360.0, allow_inf_nan=False)
-    start_depth_m: float = Field(default=0.0, ge=0.0, le=12000.0, allow_inf_nan=False)
-    neutral_density_kg_m3: float | None = Field(default=None, ge=900.0, le=1200.0, allow_inf_nan=False)
+    latitude: Annotated[float, _number(-90.0, 90.0)] | None = None
+    longitude: Annotated[float, _number(-180.0, 360.0)] | None = None
+    heading_deg: Heading = 0.0
+    start_depth_m: Depth = 0.0
+    neutral_density_kg_m3: Annotated[float, _number(900.0, 1200.0)] | None = None
+    bottom_m: Annotated[float, _number(1.0, 12000.0)] | None = None
+    actuators: ActuatorChanges = ActuatorChanges()
+    steering: Steering = Steering()
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        faults = []
+        if self.bottom_m is None and any(getattr(leg, "until_altitude_m", None) is not None for leg in flat(self.leg)):
+            faults.append("until_altitude_m needs bottom_m, the depth of the bottom")
+        if self.bottom_m is not None and self.start_depth_m >= self.bottom_m:
+            faults.append(f"start_depth_m = {self.start_depth_m:g}, allowed less than bottom_m = {self.bottom_m:g}")
+        last = self.leg[-1]
+        if self.duration_s is None and isinstance(last, ControlsLeg) and last.until_depth_m is None:
+            faults.append(f"leg {len(self.leg)} (controls) is the last and cannot end; needed is duration_s")
+        if sum(1 for _ in flat(self.leg, MOST_LEGS + 1)) > MOST_LEGS:
+            faults.append(f"repeats make more than {MOST_LEGS} legs, the most allowed")
+        if faults:
+            raise ValueError("; ".join(faults))
+        return self
+
+
+def flat(legs: tuple[Any, ...], most: int = MOST_LEGS) -> Iterator[Any]:
+    """The legs one after the other, repeats unrolled, ``most`` of them at most."""
+    for leg in legs:
+        inner = (one for _ in range(leg.repeat) for one in flat(leg.leg, most)) if isinstance(leg, Repeat) else (leg,)
+        for one in inner:
+            if most == 0:
+                return
+            most -= 1
+            yield one
+
+
+def _one_way(leg: Targets, sign: float) -> list[str]:
+    """Faults of a leg whose pitch or buoyancy takes it the other way. sign : of the pitch, nose up positive."""
+    faults, way = [], "down" if sign < 0.0 else "up"
+    if leg.pitch_deg is not None and leg.pitch_deg * sign <= 0.0:
+        allowed = "-80 to below 0" if sign < 0.0 else "above 0 to 80"
+        faults.append(f"pitch_deg = {leg.pitch_deg:g}, allowed {allowed}: the leg goes {way}")
+    if leg.net_buoyancy_in_water_kg is not None and leg.net_buoyancy_in_water_kg * sign >= 0.0:
+        allowed = "above 0" if sign < 0.0 else "below 0"
+        faults.append(
+            f"net_buoyancy_in_water_kg = {leg.net_buoyancy_in_water_kg:g}, allowed {allowed} (sinking positive): "
+            f"the leg goes {way}"
+        )
+    return faults
 
 
 def load_mission(name_or_path: str | Path) -> tuple[Mission, Path]:
@@ -70,24 +343,46 @@ def load_mission(name_or_path: str | Path) -> tuple[Mission, Path]:
     Raises InputError with every fault of the file at once.
     """
     text = str(name_or_path)
-    folder = shipped.find(text)
-    if folder is not None:
-        path = folder / "mission.toml"
+    missions = shipped.missions()
+    if text in missions:
+        path = missions[text]
     elif Path(text).suffix == "" and not Path(text).exists():
-        raise InputError(text, f"is no mission; shipped are {', '.join(shipped.folders())}, or give a .toml file")
+        raise InputError(text, f"is no mission; shipped are {', '.join(missions)}, or give a .toml file")
     else:
         path = Path(text)
     given = read_toml(path, "a mission")
     try:
         return TypeAdapter(Mission).validate_python(given), path
     except ValidationError as error:
-        raise InputError(path, "; ".join(_fault(item) for item in error.errors(include_url=False))) from None
+        faults = [_fault(item) for item in error.errors(include_url=False)]
+        count = f"{len(faults)} faults: " if len(faults) > 1 else ""
+        raise InputError(path, count + "; ".join(faults)) from None
 
 
 def _fault(item: Any) -> str:
-    key = ".".join(str(part) for part in item["loc"])
+    """One fault as text: the leg, the key, its value, what is allowed."""
+    where, key = _place(item["loc"])
     if item["type"] == "missing":
-        return f"{key} is missing"
-    if item["type"] == "unexpected_keyword_argument":
-        return f"{key} is unknown"
-    return f"{key} = {item['input']!r}: {item['msg']}"
+        what = f"{key} is missing"
+    elif item["type"] in ("unexpected_keyword_argument", "extra_forbidden"):
+        what = f"{key} is unknown"
+    elif item["type"] == "value_error":
+        what = " ".join(part for part in (key, str(item["ctx"]["error"])) if part)
+    elif item["type"].startswith("union_tag"):
+        said = item["input"].get("kind") if isinstance(item["input"], dict) else item["input"]
+        what = (
+            f"kind = {said!r}, allowed: {', '.join(_KINDS)}" if said else f"has no kind; allowed: {', '.join(_KINDS)}"
+        )
+    else:
+        what = f"{key} = {item['input']!r}: {item['msg']}"
+    return f"{where}: {what}" if where else what
+
+
+def _place(location: tuple[Any, ...]) -> tuple[str, str]:
+    """Where a fault is, for people, who count legs from one; and its key: leg 2 (dive), pitch_deg."""
+    where, rest = [], list(location)
+    while len(rest) > 1 and rest[0] == "leg" and isinstance(rest[1], int):
+        number, rest = rest[1] + 1, rest[2:]
+        kind = f" ({rest.pop(0)})" if rest and rest[0] in _KINDS else ""
+        where.append(f"leg {number}{kind}")
+    return ", ".join(where), ".".join(str(part) for part in rest)

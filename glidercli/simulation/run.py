@@ -3,27 +3,25 @@
 from __future__ import annotations
 
 import dataclasses
-import datetime
 import math
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from glidercli.errors import InputError, UsageError
+from glidercli.errors import InputError
 from glidercli.files import check_not_inputs
-from glidercli.vehicle.controls import check_controls
 from glidercli.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
     from glidercli.log import Log
     from glidercli.ocean.ocean import Ocean
+    from glidercli.simulation.energy import Costs
     from glidercli.simulation.flight import Flight
-    from glidercli.simulation.legs import Leg
     from glidercli.simulation.mission import Mission
+    from glidercli.simulation.task import Task
 
 __all__ = ["Simulation", "simulate"]
 
-DEFAULT_DURATION = 3600.0  # s, of a flight with held controls
 RTOL = (1e-13, 1e-3)  # rounding; at 1e-3 an hour's spiral ends 4 cm, the shipped trial 1 cm from the exact one
 DEEPEST = 12000.0  # m; the deepest trench has 10,935
 MOST_SAMPLES = 10_000_000  # some 5 GB of log
@@ -33,16 +31,16 @@ MOST_SAMPLES = 10_000_000  # some 5 GB of log
 class Simulation:
     """A simulated flight.
 
-    log : every sample. energy : J, lost to the water. distance : m, over ground along the horizontal track.
-    net_buoyancy_in_water : kg, sinking positive, at the end: what was pumped and what the hull displaces there.
-    wall : s of integration alone. inputs : files that it was made from.
+    log : every sample; of a flight that was given away in pieces, the last piece, with all events. distance : m, over
+    ground along the horizontal track. net_buoyancy_in_water : kg, sinking positive, at the end: what was pumped and
+    what the hull displaces there. wall : s of integration alone. inputs : files that it was made from.
     """
 
     log: Log
     duration: float
     max_depth: float
     distance: float
-    energy: float
+    costs: Costs
     net_buoyancy_in_water: float
     wall: float
     warnings: tuple[str, ...]
@@ -52,18 +50,19 @@ class Simulation:
         """The contract's JSON."""
         table = self.log.table()
         final = {name: table[name].iloc[-1] for name in table.columns if name != "time_utc"}
-        start = self.log.start_ns
+        start = next(event.time_ns for event in self.log.events if event.name == "start")
         return {
             "origin": self.log.origin,
             "reconstruction": self.log.metadata.get("reconstruction"),
             "duration_s": self.duration,
             "max_depth_m": self.max_depth,
-            "final": {"time_utc": f"{table['time_utc'].iloc[-1].isoformat()}Z", **final},
+            "final": {"time_utc": f"{table['time_utc'].iloc[-1].isoformat()}Z", **final, "elapsed_s": self.duration},
             "events": [
                 {"name": e.name, "time_s": (e.time_ns - start) / 1e9, "depth_m": e.depth} for e in self.log.events
             ],
             "distance_m": self.distance,
-            "energy_j": self.energy,
+            "energy_j": self.costs.total,
+            "energy": self.costs.document(),
             "net_buoyancy_in_water_kg": self.net_buoyancy_in_water,
             "warnings": list(self.warnings),
             "wall_s": self.wall,
@@ -78,6 +77,9 @@ def simulate(
     net_buoyancy: float | None = None,
     mass_position: float | None = None,
     mass_rotation: float | None = None,
+    trim: Mapping[str, Any] | None = None,
+    controls: Log | None = None,
+    initial: Log | None = None,
     ctd: str | Path | None = None,
     adcp: str | Path | None = None,
     duration: float | None = None,
@@ -87,20 +89,27 @@ def simulate(
     rtol: float = 1e-6,
     equations: str = "full",
     outputs: Collection[Path] = (),
+    inputs: Iterable[Path] = (),
+    piece: Callable[[Log], None] | None = None,
+    progress: Callable[[float, float], None] | None = None,
 ) -> Simulation:
-    """Fly a mission, or three held controls, from rest in the water, level.
+    """Fly a mission, held controls, a trim or recorded actuators; from rest in the water, level, unless told otherwise.
 
     Parameters
     ----------
     mission : file, or name of a shipped one. Without one the three controls are held, heading north.
     vehicle : a Vehicle, name or file; default: the mission's, else seawing.
     net_buoyancy : kg, sinking positive. mass_position : m. mass_rotation : rad.
+    trim : a trim in the contract's names: its controls are held, and the flight begins in its motion.
+    controls : a log whose actuators are flown. initial : a log whose first depth sample the flight begins at.
     ctd : cast of the water; without one the water is uniform at the vehicle's neutral density and net buoyancy acts
         unchanged with depth. adcp : current by depth. Both default to the mission's.
     duration, every : s. start_depth : m. latitude : deg; sets gravity, 9.81 m/s2 without.
     rtol : relative tolerance of the integrator.
     equations : "full", or "paper": eq. (50) without the shear's own term, and the movable mass taken as unmoving.
-    outputs : files that the caller will write; checked before the flight.
+    outputs : files that the caller will write; checked before the flight. inputs : files that trim and logs came from.
+    piece : gets the log in pieces while it is flown, so that a long flight needs no more memory than a short one.
+    progress : is told the seconds flown and the seconds to fly, the latter infinite if the legs decide.
 
     Raises
     ------
@@ -109,83 +118,50 @@ def simulate(
     InputError
         An input that cannot be used, or a vehicle that would only float.
     UsageError
-        Neither a mission nor all three controls, or both.
+        Nothing sets the controls, or two things do.
     NoSolutionError
         The motion cannot be integrated.
     """
     from glidercli.model.parameters import parameters
     from glidercli.ocean.ocean import Ocean
-    from glidercli.simulation.flight import fly
     from glidercli.simulation.mission import load_mission
-    from glidercli.simulation.to_log import to_log
+    from glidercli.simulation.task import task
     from glidercli.vehicle import load_vehicle
 
     if equations not in ("full", "paper"):
         raise InputError("equations", f"{equations!r} is not allowed; full or paper")
-    plan, path = load_mission(mission) if mission is not None else (None, None)
-    beside = path.parent if path else Path()
-    inputs = [path] if path else []
-    if plan and not ctd and plan.ctd:
-        ctd = beside / plan.ctd
-    if plan and not adcp and plan.adcp:
-        adcp = beside / plan.adcp
+    plan = load_mission(mission) if mission is not None else None
+    given_files = list(inputs)
+    if plan:
+        beside = plan[1].parent
+        ctd = ctd or (beside / plan[0].ctd if plan[0].ctd else None)
+        adcp = adcp or (beside / plan[0].adcp if plan[0].adcp else None)
     if vehicle is None:
-        vehicle = _vehicle_of(plan, beside)
+        vehicle = _vehicle_of(plan)
     craft = vehicle if isinstance(vehicle, Vehicle) else load_vehicle(vehicle)
-    if not isinstance(vehicle, Vehicle) and Path(vehicle).suffix:
-        inputs.append(Path(vehicle))
     p = parameters(craft)
-    if plan and plan.neutral_density_kg_m3:
-        p = p._replace(rho_0=plan.neutral_density_kg_m3)
-    place_latitude = latitude if latitude is not None else plan.latitude if plan else None
-    ocean = _ocean(Ocean, p.rho_0, p.T_0, ctd, adcp, place_latitude)
-    legs, controls_files = _legs(plan, beside, mass_position, mass_rotation, net_buoyancy)
-    for leg in legs:
-        for row in leg.values:
-            check_controls(craft, *row)
-    inputs += [Path(item) for item in (ctd, adcp) if item] + controls_files
-    check_not_inputs(outputs, inputs)
-    remade = [*ocean.reconstructed, *(f for f, leg in zip(controls_files, legs, strict=False) if leg.reconstructed)]
-    length = _first(duration, plan.duration_s if plan else None, DEFAULT_DURATION)
-    depth = _first(start_depth, plan.start_depth_m if plan else None, 0.0)
-    for name, value, least in (("duration", length, 1e-3), ("every", every, 1e-3)):
-        if not (math.isfinite(value) and value >= least):
-            raise InputError(name, f"{value} s is not allowed; a finite number of at least {least:g} is needed")
-    if not RTOL[0] <= rtol <= RTOL[1]:
-        raise InputError("rtol", f"{rtol} is not allowed; {RTOL[0]:g} to {RTOL[1]:g} are")
-    if length / every > MOST_SAMPLES:
-        raise InputError(
-            "duration, every",
-            f"{length:g} s by {every:g} s is {length / every:.3g} samples, allowed {MOST_SAMPLES:.0e}",
-        )
-    if not 0.0 <= depth <= DEEPEST:
-        raise InputError("start depth", f"{depth} m is not allowed; 0 to {DEEPEST:g} are")
-    flight = fly(
-        legs,
-        ocean.sea,
-        p,
-        duration=length,
-        start_depth=depth,
-        heading=math.radians(plan.heading_deg) if plan else 0.0,
-        every=every,
-        rtol=rtol,
-        full=equations == "full",
-        fitted_angle=craft.hydrodynamics.fitted_angle,
-    )
-    place = None
-    if plan and plan.latitude is not None and plan.longitude is not None:
-        place = (plan.latitude, plan.longitude)
-    log = to_log(
-        flight,
-        start=_utc(plan.start_time) if plan and plan.start_time else None,
-        place=place,
-        stratified=ocean.stratified,
-        has_temperature=ocean.has_temperature,
-        has_current=adcp is not None,
-        origin="simulated",
-        metadata=_metadata(plan, craft, equations, remade),
-    )
-    warnings = [*ocean.warnings, *_warnings(flight, craft, legs), *ocean.beyond(*flight.depths)]
+    if plan and plan[0].neutral_density_kg_m3:
+        p = p._replace(rho_0=plan[0].neutral_density_kg_m3)
+    _check_numbers(duration, start_depth, every, rtol)
+    water_files = [Path(item) for item in (ctd, adcp) if item]
+    vehicle_files = [] if isinstance(vehicle, Vehicle) or not Path(vehicle).suffix else [Path(vehicle)]
+    check_not_inputs(outputs, [*given_files, *vehicle_files, *water_files, *([plan[1]] if plan else [])])
+    held = {"mass_position": mass_position, "mass_rotation": mass_rotation, "net_buoyancy": net_buoyancy}
+    wanted = task(
+        plan, craft, p, given=held, trim=trim, controls=controls, initial=initial, start_depth=start_depth,
+        duration=duration,
+    )  # fmt: skip
+    check_not_inputs(outputs, wanted.files)
+    _check_samples(wanted.duration, every)
+    if latitude is None:
+        latitude = plan[0].latitude if plan else wanted.place[0] if wanted.place else None
+    ocean = _ocean(Ocean, p.rho_0, p.T_0, ctd, adcp, latitude)
+    remade = [*ocean.reconstructed, *wanted.reconstructed]
+    flight, log = _flown(
+        wanted, ocean, p, craft, _metadata(plan[0] if plan else None, craft, equations, remade), every=every,
+        rtol=rtol, full=equations == "full", piece=piece, progress=progress, file=plan[1] if plan else None,
+    )  # fmt: skip
+    warnings = [*ocean.warnings, *wanted.warnings, *_warnings(flight, craft, wanted), *ocean.beyond(*flight.depths)]
     if ocean.stratified and not ocean.has_temperature and p.chi > 0.0:
         warnings.append("the water has no temperature: thermal expansion of the hull is left out")
     return Simulation(
@@ -193,26 +169,74 @@ def simulate(
         duration=float(flight.times[-1]),
         max_depth=flight.depths[1],
         distance=flight.distance,
-        energy=float(flight.column("energy")[-1]),
+        costs=_costs(flight, craft, wanted),
         net_buoyancy_in_water=flight.excess,
         wall=flight.wall,
         warnings=tuple(warnings),
-        inputs=tuple(inputs),
+        inputs=tuple(dict.fromkeys([*given_files, *vehicle_files, *wanted.files[:1], *water_files, *wanted.files[1:]])),
     )
 
 
-def _first(*values: float | None) -> float:
-    return next(value for value in values if value is not None)
+def _flown(
+    wanted: Task, ocean: Ocean, p: Any, craft: Vehicle, metadata: dict[str, str], *, every: float, rtol: float,
+    full: bool, piece: Callable[[Log], None] | None, progress: Any, file: Path | None,
+) -> tuple[Flight, Log]:  # fmt: skip
+    """The flight and its log, given away in pieces if somebody takes them."""
+    from glidercli.simulation.flight import fly
+    from glidercli.simulation.to_log import to_log, with_events
+
+    def logged(times: Any, samples: Any) -> Log:
+        return to_log(
+            times, samples, start_ns=wanted.start_ns, place=wanted.place, stratified=ocean.stratified,
+            has_temperature=ocean.has_temperature, has_current=ocean.moving, metadata=metadata,
+        )  # fmt: skip
+
+    try:
+        flight = fly(
+            wanted.legs,
+            ocean.sea,
+            p,
+            duration=wanted.duration,
+            start=wanted.start,
+            controls=wanted.controls,
+            drives=wanted.drives,
+            bottom=wanted.bottom,
+            floats=wanted.floats,
+            every=every,
+            rtol=rtol,
+            full=full,
+            fitted_angle=craft.hydrodynamics.fitted_angle,
+            give=None if piece is None else lambda times, samples: piece(logged(times, samples)),
+            progress=progress,
+        )
+    except InputError as error:
+        raise InputError(file, str(error)) if file else error from None
+    return flight, with_events(logged(flight.times, flight.samples), flight, wanted.start_ns)
 
 
-def _utc(moment: datetime.datetime) -> datetime.datetime:
-    return moment.astimezone(datetime.UTC) if moment.tzinfo else moment.replace(tzinfo=datetime.UTC)
+def _check_numbers(duration: float | None, start_depth: float | None, every: float, rtol: float) -> None:
+    for name, value, least in (("duration", duration, 1e-3), ("every", every, 1e-3)):
+        if value is not None and not (math.isfinite(value) and value >= least):
+            raise InputError(name, f"{value} s is not allowed; a finite number of at least {least:g} is needed")
+    if not RTOL[0] <= rtol <= RTOL[1]:
+        raise InputError("rtol", f"{rtol} is not allowed; {RTOL[0]:g} to {RTOL[1]:g} are")
+    if start_depth is not None and not 0.0 <= start_depth <= DEEPEST:
+        raise InputError("start depth", f"{start_depth} m is not allowed; 0 to {DEEPEST:g} are")
 
 
-def _vehicle_of(plan: Mission | None, beside: Path) -> str:
+def _check_samples(length: float, every: float) -> None:
+    if math.isfinite(length) and length / every > MOST_SAMPLES:
+        raise InputError(
+            "duration, every",
+            f"{length:g} s by {every:g} s is {length / every:.3g} samples, allowed {MOST_SAMPLES:.0e}",
+        )
+
+
+def _vehicle_of(plan: tuple[Mission, Path] | None) -> str:
     if plan is None:
         return "seawing"
-    return str(beside / plan.vehicle) if plan.vehicle.endswith(".toml") else plan.vehicle
+    mission, path = plan
+    return str(path.parent / mission.vehicle) if mission.vehicle.endswith(".toml") else mission.vehicle
 
 
 def _ocean(kind: type[Ocean], density: float, temperature: float, ctd: Any, adcp: Any, latitude: float | None) -> Ocean:
@@ -223,27 +247,6 @@ def _ocean(kind: type[Ocean], density: float, temperature: float, ctd: Any, adcp
     cast = read_ctd(Path(ctd), latitude) if ctd else None
     current = read_adcp(Path(adcp)) if adcp else None
     return kind.build(density, cast=cast, current=current, latitude=latitude, temperature_reference=temperature)
-
-
-def _legs(
-    plan: Mission | None, beside: Path, mass_position: float | None, mass_rotation: float | None,
-    net_buoyancy: float | None,
-) -> tuple[list[Leg], list[Path]]:  # fmt: skip
-    """The legs and the files of their controls."""
-    from glidercli.simulation.legs import held, read_controls
-
-    given = {"mass position": mass_position, "mass rotation": mass_rotation, "net buoyancy": net_buoyancy}
-    if plan:
-        extra = [name for name, value in given.items() if value is not None]
-        if extra:
-            raise UsageError(f"mission {plan.name} sets the controls; {', '.join(extra)} cannot be given beside it")
-        files = [beside / leg.controls for leg in plan.leg]
-        legs = [read_controls(f, leg.name, leg.until_depth_m) for f, leg in zip(files, plan.leg, strict=True)]
-        return legs, files
-    if mass_position is None or mass_rotation is None or net_buoyancy is None:
-        missing = [name for name, value in given.items() if value is None]
-        raise UsageError(f"{', '.join(missing)} missing; give all three controls or a mission")
-    return [held(mass_position, mass_rotation, net_buoyancy)], []
 
 
 def _metadata(plan: Mission | None, craft: Vehicle, equations: str, remade: list[Path]) -> dict[str, str]:
@@ -265,13 +268,27 @@ def _metadata(plan: Mission | None, craft: Vehicle, equations: str, remade: list
     return told
 
 
-def _warnings(flight: Flight, craft: Vehicle, legs: list[Leg]) -> list[str]:
+def _costs(flight: Flight, craft: Vehicle, wanted: Task) -> Costs:
+    from glidercli.simulation.energy import costs
+
+    return costs(
+        flight.tallies,
+        craft,
+        wanted.drives,
+        duration=float(flight.times[-1]),
+        distance=flight.distance,
+        dives=sum(event.name in ("apogee", "lift-off") for event in flight.events),
+        lost=float(flight.column("energy")[-1]),
+    )
+
+
+def _warnings(flight: Flight, craft: Vehicle, wanted: Task) -> list[str]:
     """Where the flight left the range that the model was fitted to, and controls beyond the vehicle's limits."""
     found = [
         f"{e.name} was beyond {'' if e.name == 'roll' else 'the fitted '}{math.degrees(e.limit):g} deg for "
         f"{e.duration:.1f} s, {e.first:.1f} to {e.last:.1f} s, largest {math.degrees(e.largest):.1f} deg"
         for e in flight.excursions
     ]
-    outside = {name for leg in legs for row in leg.values for name in craft.actuators.outside(*row)}
+    outside = {name for leg in wanted.legs for row in leg.values for name in craft.actuators.outside(*row)}
     found += [f"{name.replace('_', ' ')} is beyond the limits of {craft.name}" for name in sorted(outside)]
     return found

@@ -15,7 +15,6 @@ from glidercli.ocean.water import Water
 from glidercli.simulation.actuators import Drives, drive_pressure, moving_controls, time_to_move
 from glidercli.simulation.autopilot import Order, commands
 from glidercli.simulation.memory import (
-    BLEEDING,
     COMMAND_GAMMA,
     COMMAND_MB,
     COMMAND_RRX,
@@ -26,14 +25,13 @@ from glidercli.simulation.memory import (
     MB,
     OIL_LIMIT,
     PUMPED,
-    PUMPING,
-    ROTATING,
+    ROTATED,
     ROTATION_LIMIT,
     RRX,
     RRX_RATE,
     SAMPLES,
+    SLID,
     SLIDE_LIMIT,
-    SLIDING,
     T,
     note_event,
 )
@@ -108,22 +106,16 @@ def note_limits(y: Array, m: Array, order: Order, drives: Drives, log: Array) ->
 
 @kernel
 def move_actuators(m: Array, segment: Segment, t: float, p: Parameters) -> None:
-    """Put the actuators where a segment has brought them by time t, s, and count what the motors ran."""
+    """Put the actuators where a segment has brought them by time t, s, and count their travel."""
     c, since = segment.controls, t - m[T]
     now = controls_at(segment, t)
     m[RRX] = settled(now.rrx, m[COMMAND_RRX], c.rrx_rate)
     m[GAMMA] = settled(now.gamma, m[COMMAND_GAMMA], c.gamma_rate)
     m[MB] = settled(now.mb, m[COMMAND_MB], segment.mb_rate)
     m[RRX_RATE], m[GAMMA_RATE] = c.rrx_rate, c.gamma_rate
-    if c.rrx_rate != 0.0:
-        m[SLIDING] += since
-    if c.gamma_rate != 0.0:
-        m[ROTATING] += since
-    if segment.mb_rate < 0.0:
-        m[PUMPING] += since
-        m[PUMPED] -= segment.mb_rate * since / p.rho_0
-    elif segment.mb_rate > 0.0:
-        m[BLEEDING] += since
+    m[SLID] += abs(c.rrx_rate) * since
+    m[ROTATED] += abs(c.gamma_rate) * since
+    m[PUMPED] += segment.oil_rate * since
 
 
 @kernel

@@ -190,7 +190,7 @@ def fly_stretch(
             note_event(log, m, SURFACING if surfaced else GROUNDING, m[T], y[2])
             m[HELD] = AT_SURFACE if surfaced else ON_BOTTOM
             m[RESTED] = 0.0
-            if surfaced and not ends.surface_ends:
+            if not (ends.surface_ends if surfaced else ends.bottom_ends):
                 continue
         if status != GOING_ON:
             return status

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import datetime
+import dataclasses
 from collections.abc import Mapping
 
 import numpy as np
@@ -10,15 +10,16 @@ from numpy.typing import NDArray
 
 from glidercli.channels import PHASES
 from glidercli.frames import euler_from_quaternion_arrays
-from glidercli.log import Channel, Event, Log, Origin
+from glidercli.log import Channel, Event, Log
 from glidercli.simulation.flight import Flight
+from glidercli.simulation.sampling import COLUMNS
 
-__all__ = ["to_log"]
+__all__ = ["to_log", "with_events"]
 
 Array = NDArray[np.float64]
 
-EPOCH = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)
-"""Start of a flight that states none; an arbitrary date, the same for every run, and the log says so."""
+EPOCH_NS = 946_684_800 * 10**9
+"""2000-01-01, start of a flight that states none: an arbitrary date, the same for every run, and the log says so."""
 
 _DIRECT = (
     "north", "east", "down", "u", "v", "w", "p", "q", "r", "vertical_speed", "mass_position", "mass_rotation",
@@ -27,28 +28,27 @@ _DIRECT = (
 
 
 def to_log(
-    flight: Flight,
+    times: Array,
+    samples: Array,
     *,
-    start: datetime.datetime | None,
+    start_ns: int | None,
     place: tuple[float, float] | None,
     stratified: bool,
     has_temperature: bool,
     has_current: bool,
-    origin: Origin,
     metadata: Mapping[str, str],
 ) -> Log:
-    """The Log of a flight.
+    """The Log of samples of a flight, without events.
 
-    start : UTC, or None for an arbitrary date. place : latitude and longitude of the start, deg, or None.
-    stratified, has_temperature, has_current : which water channels mean anything.
+    times : (n,) s. samples : (n, len(COLUMNS)), as in Flight. start_ns : UTC since 1970, or None for an arbitrary date.
+    place : latitude and longitude of the start, deg. stratified, has_temperature, has_current : which water channels
+    mean anything.
     """
-    since = start or EPOCH
-    start_ns = int((since - datetime.datetime(1970, 1, 1, tzinfo=datetime.UTC)) / datetime.timedelta(microseconds=1))
-    start_ns *= 1000
-    time_ns = start_ns + np.round(flight.times * 1e9).astype(np.int64)
-    values: dict[str, Array] = {name: flight.column(name) for name in _DIRECT}
+    time_ns = (EPOCH_NS if start_ns is None else start_ns) + np.round(times * 1e9).astype(np.int64)
+    column = {name: samples[:, i] for i, name in enumerate(COLUMNS)}
+    values: dict[str, Array] = {name: column[name] for name in _DIRECT}
     values["depth"] = values["down"]
-    quaternions = np.column_stack([flight.column(f"q_{axis}") for axis in "wxyz"])
+    quaternions = np.column_stack([column[f"q_{axis}"] for axis in "wxyz"])
     values["roll"], values["pitch"], values["heading"] = euler_from_quaternion_arrays(quaternions)
     speed = np.sqrt(values["u"] ** 2 + values["v"] ** 2 + values["w"] ** 2)
     values["speed_through_water"] = speed
@@ -60,29 +60,35 @@ def to_log(
     sinking = values["vertical_speed"] >= 0.0
     values["phase"] = np.where(sinking, PHASES.index("dive"), PHASES.index("climb")).astype(float)
     if stratified:
-        values["pressure"] = flight.column("pressure")
+        values["pressure"] = column["pressure"]
     if has_temperature:
-        values["temperature"] = flight.column("temperature")
+        values["temperature"] = column["temperature"]
     if has_current:
-        values["current_north"], values["current_east"] = flight.column("current_north"), flight.column("current_east")
-        values["current_up"] = 0.0 - flight.column("current_down")  # -0.0 for none would show
+        values["current_north"], values["current_east"] = column["current_north"], column["current_east"]
+        values["current_up"] = 0.0 - column["current_down"]  # -0.0 for none would show
     if place is not None:
         values["latitude"], values["longitude"] = _geodetic(values, place)
     undefined = {"angle_of_attack", "sideslip"}  # no flow, no angle: a vehicle at rest has neither
     channels = {
-        name: Channel(name, time_ns[moving], column[moving], origin)
+        name: Channel(name, time_ns[moving], given[moving], "simulated")
         if name in undefined
-        else Channel(name, time_ns, column, origin)
-        for name, column in values.items()
+        else Channel(name, time_ns, given, "simulated")
+        for name, given in values.items()
     }
-    events = [Event("start", int(time_ns[0]), float(values["depth"][0]))]
-    events += [Event(e.name, start_ns + round(e.time * 1e9), e.depth) for e in flight.events]
     told = dict(metadata)
-    if start is None:
+    if start_ns is None:
         told["time_note"] = "the date is arbitrary: no start time was given"
     if place is not None:
         told["origin_latitude_deg"], told["origin_longitude_deg"] = (repr(float(item)) for item in place)
-    return Log(channels, origin, told, tuple(sorted(events, key=lambda event: event.time_ns)))
+    return Log(channels, "simulated", told)
+
+
+def with_events(log: Log, flight: Flight, start_ns: int | None) -> Log:
+    """The log with the start and the events of its flight."""
+    start = EPOCH_NS if start_ns is None else start_ns
+    found = [Event("start", start, flight.start_depth)]
+    found += [Event(e.name, start + round(e.time * 1e9), e.depth) for e in flight.events]
+    return dataclasses.replace(log, events=tuple(sorted(found, key=lambda event: event.time_ns)))
 
 
 def _geodetic(values: Mapping[str, Array], place: tuple[float, float]) -> tuple[Array, Array]:

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Quantity"]
 
-_TO_SI = {"deg": DEGREE, "1/dbar": 1.0 / DBAR}
-"""Units of vehicle files that are not SI already, as the factor to SI (rad, 1/Pa)."""
+_TO_SI = {"deg": DEGREE, "deg/s": DEGREE, "1/dbar": 1.0 / DBAR, "mm/s": 1e-3, "cm3/s": 1e-6, "MJ": 1e6}
+"""Units of vehicle files that are not SI already, as the factor to SI (rad, rad/s, 1/Pa, m/s, m3/s, J)."""
 
 _NOTES = ("source", "symbol", "note", "restored")
 

@@ -11,9 +11,10 @@ from typing import Annotated, Self
 from pydantic import ConfigDict, model_validator
 from pydantic.dataclasses import dataclass
 
+from glidercli.units import DBAR, DEGREE
 from glidercli.vehicle.quantity import Quantity
 
-__all__ = ["Actuator", "Actuators", "AddedMass", "Ballast", "Hull", "Hydrodynamics", "Mass", "Vehicle"]
+__all__ = ["Actuator", "Actuators", "AddedMass", "Ballast", "Energy", "Hull", "Hydrodynamics", "Mass", "Vehicle"]
 
 _CONFIG = ConfigDict(extra="forbid")
 
@@ -85,6 +86,10 @@ class PositionRange:
     minimum: Annotated[float, Quantity("m", -5.0, 5.0)]
     nominal: Annotated[float, Quantity("m", -5.0, 5.0)]
     maximum: Annotated[float, Quantity("m", -5.0, 5.0)]
+    rate: Annotated[float, Quantity("mm/s", 0.01, 1000.0)] = 6e-3
+    """Speed of the slide."""
+    power: Annotated[float, Quantity("W", 0.0, 1000.0)] = 6.0
+    """Of its motor while it runs."""
 
 
 @dataclass(frozen=True, config=_CONFIG)
@@ -94,6 +99,10 @@ class RotationRange:
     minimum: Annotated[float, Quantity("deg", -180.0, 180.0)]
     nominal: Annotated[float, Quantity("deg", -180.0, 180.0)]
     maximum: Annotated[float, Quantity("deg", -180.0, 180.0)]
+    rate: Annotated[float, Quantity("deg/s", 0.01, 360.0)] = 15.0 * DEGREE
+    """Speed of the rotation."""
+    power: Annotated[float, Quantity("W", 0.0, 1000.0)] = 2.0
+    """Of its motor while it runs."""
 
 
 @dataclass(frozen=True, config=_CONFIG)
@@ -103,6 +112,14 @@ class BuoyancyRange:
     minimum: Annotated[float, Quantity("kg", -100.0, 100.0)]
     nominal: Annotated[float, Quantity("kg", -100.0, 100.0)]
     maximum: Annotated[float, Quantity("kg", -100.0, 100.0)]
+    pump_rate: Annotated[float, Quantity("cm3/s", 0.01, 1e5)] = 2e-6
+    """Oil pumped out at the surface."""
+    pump_slowing: Annotated[float, Quantity("1/dbar", 0.0, 0.01)] = 4e-4 / DBAR
+    """Share of that rate lost per pressure; a tenth of the rate always remains."""
+    pump_efficiency: Annotated[float, Quantity("1", 0.01, 1.0)] = 0.24
+    """Work against the sea over electrical energy."""
+    return_rate: Annotated[float, Quantity("cm3/s", 0.01, 1e5)] = 7e-6
+    """Oil let back in, which costs nothing."""
 
 
 Actuator = PositionRange | RotationRange | BuoyancyRange
@@ -110,7 +127,11 @@ Actuator = PositionRange | RotationRange | BuoyancyRange
 
 @dataclass(frozen=True, config=_CONFIG)
 class Actuators:
-    """Limits of the three controls; nominal is neutral, straight and level."""
+    """Limits and rates of the three controls; nominal is neutral, straight and level.
+
+    Rates, powers and efficiency may be left out of a file. The values then taken are assumed: they are of the order
+    that the motors of a Seaglider show in its log (sg561, dives 2 to 5: docs/missions.md).
+    """
 
     mass_position: PositionRange
     mass_rotation: RotationRange
@@ -208,6 +229,16 @@ class Ballast:
 
 
 @dataclass(frozen=True, config=_CONFIG)
+class Energy:
+    """What the vehicle has and what it always spends. Assumed where a file leaves it out."""
+
+    battery: Annotated[float, Quantity("MJ", 0.001, 1e5)] = 10e6
+    """Of the order of Seaglider's (Eriksen et al. 2001)."""
+    hotel_power: Annotated[float, Quantity("W", 0.0, 1e4)] = 0.5
+    """Sensors, computer and all else that runs all the time."""
+
+
+@dataclass(frozen=True, config=_CONFIG)
 class Vehicle:
     """A glider: everything that the model needs to know about it."""
 
@@ -220,3 +251,4 @@ class Vehicle:
     added_mass: AddedMass
     hydrodynamics: Hydrodynamics
     ballast: Ballast
+    energy: Energy = Energy()

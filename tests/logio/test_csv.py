@@ -16,7 +16,7 @@ from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import InputError
 from glidercli.log import Channel, Log
 from glidercli.logio import read, write
-from glidercli.logio.csv_log import write_csv_stream
+from glidercli.logio.csv_log import CsvTable
 
 NUMBER = st.floats(-1e12, 1e12, allow_subnormal=False)
 TIMES = st.lists(st.integers(0, 10**18), min_size=1, max_size=12, unique=True).map(sorted)
@@ -52,7 +52,7 @@ def test_round_trip(log: Log) -> None:
 def test_the_first_line_is_the_column_names() -> None:
     stream = io.StringIO()
     log = Log({"pitch": Channel("pitch", np.array([0, 10**9]), np.array([0.0, np.pi]))}, "measured")
-    write_csv_stream(log, stream)
+    CsvTable(stream).add(log)
     assert stream.getvalue().splitlines() == [
         "time_utc,elapsed_s,pitch_deg,origin",
         "1970-01-01T00:00:00.000000000Z,0.0,0.0,measured",
@@ -136,9 +136,7 @@ def test_a_table_parted_from_its_metadata_is_not_taken_for_more(
     tmp_path: Path, origin: str, metadata: dict[str, str], read_as: str
 ) -> None:
     with (tmp_path / "a.csv").open("w") as stream:
-        write_csv_stream(
-            Log({"depth": Channel("depth", np.array([0]), np.array([1.0]), origin)}, origin, metadata), stream
-        )
+        CsvTable(stream).add(Log({"depth": Channel("depth", np.array([0]), np.array([1.0]), origin)}, origin, metadata))
     log = read([tmp_path / "a.csv"]).log
     assert log.origin == log["depth"].origin == read_as
 

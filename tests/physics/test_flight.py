@@ -19,6 +19,7 @@ from glidercli.ocean import Ocean, Sea, at_depth
 from glidercli.ocean.current import CurrentProfile
 from glidercli.simulation.flight import Flight, fly
 from glidercli.simulation.legs import Leg, held
+from glidercli.simulation.start import Start
 
 
 def sea(depth: list[float] | None = None, east: list[float] | None = None, north: list[float] | None = None) -> Sea:
@@ -92,7 +93,7 @@ def test_shear_against_absolute_motion(p: Parameters) -> None:
     bare = p._replace(MA=zero, IA=zero, **none)
     depth = list(np.linspace(0.0, 400.0, 41))
     sheared = sea(depth, [0.01 * (z - 50.0) for z in depth], [0.004 * (z - 50.0) for z in depth])  # still at 50 m
-    a, b = (fly(SPIRAL, s, bare, duration=60.0, start_depth=50.0, rtol=1e-11) for s in (sheared, STILL))
+    a, b = (fly(SPIRAL, s, bare, duration=60.0, start=Start(depth=50.0), rtol=1e-11) for s in (sheared, STILL))
     assert difference(a, b, "north", "east", "down", "q_w", "q_x", "q_y", "q_z") < 1e-6  # m; global error at rtol 1e-11
     assert np.abs(a.column("u") - b.column("u")).max() > 1e-3  # while the motion through water differs
 
@@ -146,7 +147,7 @@ def test_moving_mass_keeps_momentum_of_the_whole(p: Parameters) -> None:
     bare = p._replace(MA=zero, IA=zero, **none)
     weightless = STILL._replace(gravity=0.0)
     slide = [Leg("slide", np.array([0.0, 40.0]), np.array([[0.36, 0.0, 1e-9], [0.44, 0.0, 1e-9]]))]
-    flight = fly(slide, weightless, bare, duration=60.0, start_depth=100.0, rtol=1e-11)
+    flight = fly(slide, weightless, bare, duration=60.0, start=Start(depth=100.0), rtol=1e-11)
     q = [flight.column(f"q_{name}") for name in "wxyz"]
     # fly starts from rest of the whole in the hull's frame: momentum zero, so the common centre never moves
     for i in (0, len(flight.times) // 2, -1):

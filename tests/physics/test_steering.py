@@ -16,6 +16,7 @@ from glidercli.simulation.actuators import Drives
 from glidercli.simulation.autopilot import GIVEN, HEADING, HELD_PITCH, IN_WATER, RADIUS, TURN_RATE, Order
 from glidercli.simulation.flight import Flight, fly
 from glidercli.simulation.legs import NO_ORDER, Leg
+from glidercli.simulation.start import Start
 
 STILL = Ocean.uniform(1025.0, temperature_reference=15.0).sea
 NEUTRAL = 0.4016
@@ -52,7 +53,7 @@ def test_pitch_is_held_and_the_yo_ends_at_its_depths(p: Parameters) -> None:
 
 def test_motors_move_at_their_rates_and_the_pump_slows_with_pressure(p: Parameters) -> None:
     leg = Leg("climb", order=pitched(p, math.radians(30.0), -0.3), goes="up", until_depth=700.0)
-    flight = fly([leg], STILL, p, controls=(NEUTRAL, 0.0, 0.3), drives=DRIVES, start_depth=800.0, every=1.0)
+    flight = fly([leg], STILL, p, controls=(NEUTRAL, 0.0, 0.3), drives=DRIVES, start=Start(depth=800.0), every=1.0)
     position, mb = flight.column("mass_position"), flight.column("net_buoyancy")
     assert np.abs(np.diff(position)).max() == pytest.approx(2e-3, rel=1e-6)
     pressure = 1025.0 * 9.81 * 800.0
@@ -156,7 +157,7 @@ def test_the_surface_holds_and_the_leg_goes_on(p: Parameters) -> None:
     current = Ocean.uniform(1025.0, temperature_reference=15.0).sea
     current.current.coefficients[3, 0] = (0.1, -0.2, 0.0)
     leg = Leg("up and wait", order=pitched(p, math.radians(30.0), -0.3), duration=2000.0, surface_ends=False)
-    flight = fly([leg], current, p, controls=(NEUTRAL, 0.0, -0.3), drives=DRIVES, start_depth=50.0)
+    flight = fly([leg], current, p, controls=(NEUTRAL, 0.0, -0.3), drives=DRIVES, start=Start(depth=50.0))
     surfaced = next(event.time for event in flight.events if event.name == "surfacing")
     afloat = flight.times > surfaced + 1.0
     assert flight.times[-1] == 2000.0

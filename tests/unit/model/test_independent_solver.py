@@ -14,6 +14,7 @@ from glidercli.model import Controls
 from glidercli.ocean import Ocean
 from glidercli.simulation.flight import fly
 from glidercli.simulation.legs import held
+from glidercli.simulation.start import Start
 
 
 def test_a_violent_climb_is_the_same_by_both() -> None:
@@ -28,7 +29,7 @@ def test_a_violent_climb_is_the_same_by_both() -> None:
     start = np.hstack([np.zeros(6), [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 800.0]])
     theirs = solve_ivp(rates, (0.0, 100.0), start, rtol=1e-9, atol=1e-10).y[:, -1]
     legs = [held(c.rrx, c.gamma, c.mb)]
-    ours = fly(legs, Ocean.uniform(1025.0, 9.81, 15.0).sea, P, duration=100.0, start_depth=800.0, rtol=1e-10)
+    ours = fly(legs, Ocean.uniform(1025.0, 9.81, 15.0).sea, P, duration=100.0, start=Start(depth=800.0), rtol=1e-10)
     names = ("u", "v", "w", "p", "q", "r", "q_w", "q_x", "q_y", "q_z", "north", "east", "down")
     mine = np.array([ours.column(name)[-1] for name in names])
     np.testing.assert_allclose(mine, theirs, atol=1e-6)  # m, m/s, rad/s: a thousand times the solvers' tolerances
