@@ -50,8 +50,8 @@ def write_log(log: Log, paths: Sequence[Path], force: bool, quiet: bool) -> None
 class Sink:
     """Where a flight goes while it is flown, and when it is done; see ``log_sink``."""
 
-    def __init__(self, saving: Saving, pictures: Sequence[tuple[Path, Path]], files: Sequence[Path], stdout: bool):
-        """Begin. pictures : figure wanted, and the name that it has while it is drawn."""
+    def __init__(self, saving: Saving, pictures: Sequence[Path], files: Sequence[Path], stdout: bool):
+        """Begin. pictures : figures, under the names that they have while they are drawn."""
         self._saving, self._pictures, self._files, self._stdout = saving, pictures, files, stdout
 
     @property
@@ -68,11 +68,11 @@ class Sink:
         if self.piece is None:
             self._saving.add(log)
         self._saving.close(log)
-        for target, part in self._pictures:
+        for part in self._pictures:
             from glidercli.pictures import save
             from glidercli.simulation.figure import draw_flight
 
-            save(lambda: draw_flight(log), part, target)
+            save(lambda: draw_flight(log), part, f"{log.kind}: {log.metadata['provenance']}")
         if self._stdout:
             CsvTable(sys.stdout).add(log)
 
@@ -92,6 +92,6 @@ def log_sink(paths: Sequence[Path], force: bool) -> Iterator[Sink]:
     files = [path for path in paths if path != _STDOUT]
     drawn = [path for path in files if path.suffix.lower() in PICTURES]
     with contextlib.ExitStack() as pending:
-        pictures = [(path, pending.enter_context(atomic(path, force))) for path in drawn]
+        pictures = [pending.enter_context(atomic(path, force)) for path in drawn]
         tables = pending.enter_context(saving([path for path in files if path not in drawn], force))
         yield Sink(tables, pictures, files, _STDOUT in paths)

@@ -11,7 +11,6 @@ import typer
 from glidercli.cli.options import Debug, Equations, EquationsOption, Force, Json, Quiet, output_option
 from glidercli.errors import UsageError
 
-
 _MOST_EVENTS = 40  # lines of the summary
 
 
@@ -120,17 +119,19 @@ def _summary(d: dict[str, Any]) -> str:
     rate = d["simulated_seconds_per_second"]
     lines = [f"SIMULATED FROM A RECONSTRUCTION: {d['reconstruction']}"] if d["reconstruction"] else ["SIMULATED"]
     energy = d["energy"]
+    kj = {name: energy[f"{name}_j"] / 1e3 for name in ("total", "pump", "slide", "rotation", "hotel", "per_dive")}
     lines += [
         f"{'duration':<17}{_span(d['duration_s'])}",
         f"{'maximum depth':<17}{d['max_depth_m']:.2f} m",
         f"{'distance':<17}{d['distance_m']:.1f} m over ground",
-        f"{'energy':<17}{energy['total_j'] / 1e3:.2f} kJ: pump {energy['pump_j'] / 1e3:.2f}, slide "
-        f"{energy['slide_j'] / 1e3:.2f}, rotation {energy['rotation_j'] / 1e3:.2f}, hotel {energy['hotel_j'] / 1e3:.2f}",
+        f"{'energy':<17}{kj['total']:.2f} kJ: pump {kj['pump']:.2f}, slide {kj['slide']:.2f}, "
+        f"rotation {kj['rotation']:.2f}, hotel {kj['hotel']:.2f}",
     ]
     if energy["dives"]:
-        lines.append(f"{'per dive':<17}{energy['per_dive_j'] / 1e3:.2f} kJ, {energy['dives']} dives")
+        lines.append(f"{'per dive':<17}{kj['per_dive']:.2f} kJ, {energy['dives']} dives")
     lines += [
-        f"{'on one battery':<17}{energy['endurance_s'] / 86400.0:.1f} days, {energy['range_m'] / 1e3:.0f} km over ground",
+        f"{'on one battery':<17}{energy['endurance_s'] / 86400.0:.1f} days, {energy['range_m'] / 1e3:.0f} km over "
+        f"ground, of {energy['battery_j'] / 1e6:g} MJ",
         f"{'lost to water':<17}{energy['lost_to_water_j']:.1f} J",
         f"{'net buoyancy':<17}{d['final']['net_buoyancy_kg']:z.3f} kg pumped, {d['net_buoyancy_in_water_kg']:z.3f} kg "
         "in the water at the end",

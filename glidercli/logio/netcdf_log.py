@@ -1,7 +1,8 @@
 """How does a Log stand in a NetCDF file? By the CF conventions: a trajectory where the track has a place on Earth.
 
 Values are in SI units, angles in rad, as inside the program, so that nothing is lost on the way out; latitude and
-longitude are in degrees. Times are nanoseconds in 64 bits. A channel without a sample at a time holds the fill value.
+longitude are in degrees. Times count in seconds from the log's first second, exact to the nanosecond for 48 days. A
+channel without a sample at a time holds the fill value.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ class NetcdfTable:
     def __init__(self, path: Path) -> None:
         self._path = path
         self._file: Any = None
-        self._rows = 0
+        self._rows, self._zero_ns = 0, 0
         self._bounds: dict[str, tuple[float, float]] = {}
 
     def add(self, log: Log) -> None:
@@ -40,7 +41,7 @@ class NetcdfTable:
         times = [channel.time_ns for channel in log.channels.values() if len(channel)]
         time_ns = np.unique(np.concatenate(times)) if times else np.array([], np.int64)
         rows = slice(self._rows, self._rows + len(time_ns))
-        self._file["time"][rows] = time_ns
+        self._file["time"][rows] = (time_ns - self._zero_ns) / 1e9
         for name, channel in log.channels.items():
             column = np.full(len(time_ns), _FILL)
             column[np.searchsorted(time_ns, channel.time_ns)] = channel.values
@@ -70,7 +71,7 @@ class NetcdfTable:
                 "source": _source(metadata) + (f": {statement}" if statement else ""),
                 "history": "written by " + str(_program(told)),
                 "references": told.get("vehicle_reference", "https://doi.org/10.1016/j.oceaneng.2012.12.023"),
-                "comment": "Angles in rad. glidercli holds provenance, events and the origin of every channel, as JSON.",
+                "comment": "Angles in rad. The attribute glidercli holds provenance, events and origins, as JSON.",
                 "glidercli": json.dumps(metadata, ensure_ascii=False),
             }
         )
@@ -85,11 +86,13 @@ class NetcdfTable:
         file.setncatts({"Conventions": "CF-1.10", "institution": "not said"})
         file.createDimension("time", None)
         chunks: dict[str, Any] = {"chunksizes": (_CHUNK,), "compression": "zlib", "complevel": 1, "shuffle": True}
-        time = file.createVariable("time", "i8", ("time",), **chunks)
+        second = log.start_ns // 10**9 if any(map(len, log.channels.values())) else 0
+        self._zero_ns = second * 10**9
+        time = file.createVariable("time", "f8", ("time",), **chunks)
         time.setncatts(
             {
                 "standard_name": "time", "long_name": "time, UTC", "axis": "T", "calendar": "standard",
-                "units": "nanoseconds since 1970-01-01T00:00:00Z",
+                "units": f"seconds since {np.datetime64(second, 's')}Z",
             }
         )  # fmt: skip
         if has_place:

@@ -35,6 +35,9 @@ HEADING, TURN_RATE, RADIUS = 1, 2, 3
 IN_WATER = 1
 """Net buoyancy is held in the water around, not in the pump."""
 
+_GLIDING = math.tan(math.radians(20.0))
+"""Angle of attack, as its tangent, beyond which the vehicle does not glide and its rotation turns it no way in
+particular, as between dive and climb: heading and turn then wait."""
 OUT_OF_REACH = math.radians(15.0)
 """Pitch error beyond which the vehicle is still turning over: the mass then waits where static balance puts it."""
 
@@ -99,6 +102,8 @@ def commands(
         gamma = order.mass_rotation
         if elapsed % (order.time_on + order.time_off) >= order.time_on:
             gamma = 0.0
+    elif abs(V[2]) >= _GLIDING * V[0]:
+        pass
     elif order.holds_turn == HEADING:
         error = order.wanted - math.atan2(R[1][0], R[0][0])
         error -= 2.0 * math.pi * math.floor(error / (2.0 * math.pi) + 0.5)

@@ -22,7 +22,7 @@ __all__ = ["Costs", "costs"]
 class Costs:
     """Energy in J. lost_to_water : by drag and moments, what the flight itself dissipates, no cost of the battery.
 
-    dives : apogees. endurance : s, range : m, of a full battery spent like this.
+    dives : apogees. battery : J. endurance : s, range : m, of a full battery spent like this.
     """
 
     lost_to_water: float
@@ -32,6 +32,7 @@ class Costs:
     rotation: float
     hotel: float
     dives: int
+    battery: float
     endurance: float
     range: float
 
@@ -57,6 +58,7 @@ class Costs:
             "total_j": self.total,
             "dives": self.dives,
             "per_dive_j": self.per_dive,
+            "battery_j": self.battery,
             "endurance_s": self.endurance,
             "range_m": self.range,
         }
@@ -75,6 +77,7 @@ def costs(
         rotation=turn.power * tallies.rotated / drives.gamma_rate,
         hotel=craft.energy.hotel_power * duration,
         dives=dives,
+        battery=craft.energy.battery,
         endurance=math.inf,
         range=math.inf,
     )

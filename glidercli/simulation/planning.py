@@ -238,4 +238,6 @@ def _resting(leg: Drift | Wait, d: Drives, p: Parameters) -> Leg:
     position = min(max(balanced_position(_RISING, p), d.rrx_min), d.rrx_max)
     order = Order(GIVEN, d.mb_min, GIVEN, position, 0.0, 0.0, 0.0, GIVEN, 0.0, 0.0, 0.0, 0.0, math.inf, 0.0, math.inf)
     rests = isinstance(leg, Wait)
-    return Leg(leg.name or leg.kind, order=order, duration=leg.duration_s, surface_ends=False, bottom_ends=False, keeps=rests)
+    return Leg(
+        leg.name or leg.kind, order=order, duration=leg.duration_s, surface_ends=False, bottom_ends=False, keeps=rests
+    )

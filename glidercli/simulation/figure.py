@@ -1,0 +1,136 @@
+"""What does a flight look like? One figure: depth, attitude and controls by time, the track, and the water by depth."""
+
+from __future__ import annotations
+
+import textwrap
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from glidercli.channels import CHANNELS
+from glidercli.errors import OutputError
+from glidercli.log import Log
+from glidercli.pictures import COLOURS, WIDTH
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["draw_flight"]
+
+_HEIGHT = 8.2  # inch
+_SPANS = ((3 * 3600.0, 60.0, "min"), (4 * 86400.0, 3600.0, "h"), (np.inf, 86400.0, "d"))
+"""Unit of the time axis up to a duration, s."""
+_ROWS: tuple[tuple[str, float, tuple[tuple[str, str, float], ...]], ...] = (
+    ("depth, m", 1.0, (("depth", "", 1.0),)),
+    ("deg", 2.0, (("pitch", "pitch", 1.0), ("roll", "roll", 1.0))),
+    ("heading, deg", 2.0, (("heading", "", 1.0),)),
+    ("mass position, mm", 1.0, (("mass_position", "", 1e3),)),
+    ("mass rotation, deg", 2.0, (("mass_rotation", "", 1.0),)),
+    ("net buoyancy, kg", 0.02, (("net_buoyancy", "", 1.0),)),
+)
+"""Panels by time: label and least span of the axis; its channels, with their name in the legend and a factor."""
+
+
+def draw_flight(log: Log) -> Figure:
+    """The figure of a simulated flight; OutputError for a log of less than two samples."""
+    from matplotlib.figure import Figure
+
+    if len(log["depth"]) < 2:
+        raise OutputError("figure", "not drawn: the flight has less than two samples")
+    figure = Figure(figsize=(WIDTH, _HEIGHT), layout="constrained")
+    figure.suptitle("\n".join(textwrap.wrap(f"{log.kind}: {log.metadata.get('title', 'flight')}", 100)), fontsize=8.5)
+    halves: Any = figure.subfigures(1, 2, width_ratios=[1.45, 1.0])
+    left, right = halves
+    rows = left.subplots(len(_ROWS), 1, sharex=True)
+    duration = (log.end_ns - log.start_ns) / 1e9
+    _, unit, word = next(span for span in _SPANS if duration <= span[0])
+    for axes, (label, least, lines) in zip(rows, _ROWS, strict=True):
+        for (name, legend, factor), colour in zip(lines, COLOURS[1:], strict=False):
+            seconds, values = _series(log, name)
+            axes.plot(seconds / unit, _broken(name, values * factor), color=colour, linewidth=0.9, label=legend)
+        axes.set_ylabel(label)
+        _widen(axes, least)
+        if len(lines) > 1:
+            axes.legend(loc="best", frameon=False, ncols=2)
+    rows[0].invert_yaxis()
+    rows[-1].set_xlabel(f"time, {word}")
+    left.align_ylabels()
+    _mark(rows[0], log, unit)
+    track, water = right.subplots(2, 1)
+    _track(track, log)
+    _water(water, log)
+    return figure
+
+
+def _series(log: Log, name: str) -> tuple[Any, Any]:
+    """Seconds since the start, and values in the table's unit."""
+    channel = log[name]
+    return (channel.time_ns - log.start_ns) / 1e9, channel.values * CHANNELS[name].factor
+
+
+def _broken(name: str, values: Any) -> Any:
+    """The values, parted with NaN where an angle passes from one end of its circle to the other."""
+    if not CHANNELS[name].circular:
+        return values
+    broken = np.array(values)
+    broken[1:][np.abs(np.diff(values)) > 180.0] = np.nan
+    return broken
+
+
+def _widen(axes: Axes, least: float) -> None:
+    """Open the axis to a span, so that what does not change is not drawn by its rounding."""
+    low, high = axes.get_ylim()
+    if high - low < least:
+        axes.set_ylim(0.5 * (low + high - least), 0.5 * (low + high + least))
+
+
+def _mark(axes: Axes, log: Log, unit: float) -> None:
+    """Where dives turn and where the vehicle surfaces or grounds."""
+    for names, marker, label in ((("apogee",), "v", "apogee"), (("surfacing",), "^", "surfacing"),
+                                 (("grounding",), "x", "grounding")):  # fmt: skip
+        at = [(event.time_ns - log.start_ns, event.depth) for event in log.events if event.name in names]
+        if at:
+            times, depths = zip(*at, strict=True)
+            axes.plot(
+                np.array(times) / 1e9 / unit, depths, marker, color="black", markersize=3.5, label=label, linestyle=""
+            )
+    if axes.get_legend_handles_labels()[1]:
+        axes.legend(loc="best", frameon=False)
+
+
+def _track(axes: Axes, log: Log) -> None:
+    """The track over ground from above, in m or km."""
+    (_, north), (_, east) = _series(log, "north"), _series(log, "east")
+    far = max(np.ptp(north), np.ptp(east)) > 5000.0
+    scale, unit = (1e-3, "km") if far else (1.0, "m")
+    axes.plot(east * scale, north * scale, color=COLOURS[1], linewidth=0.9)
+    axes.plot(east[0] * scale, north[0] * scale, "o", color="black", markersize=4, label="start")
+    axes.plot(east[-1] * scale, north[-1] * scale, "s", color=COLOURS[0], markersize=4, label="end")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_xlabel(f"east, {unit}")
+    axes.set_ylabel(f"north, {unit}")
+    axes.set_title("track over ground")
+    axes.legend(loc="best", frameon=False)
+
+
+def _water(axes: Axes, log: Log) -> None:
+    """Current and density that the vehicle met, by depth; its speed where the water is all the same."""
+    depth = log["depth"].values
+    axes.invert_yaxis()
+    axes.set_ylabel("depth, m")
+    order = np.argsort(depth)
+    if "current_east" in log:
+        for name, colour in (("current_east", COLOURS[0]), ("current_north", COLOURS[1])):
+            axes.plot(log[name].values[order], depth[order], color=colour, linewidth=0.9, label=name[8:])
+        axes.set_xlabel("current, m/s")
+        axes.set_title("current met")
+        axes.legend(loc="best", frameon=False)
+    elif "pressure" in log:
+        axes.plot(log["density"].values[order], depth[order], color=COLOURS[2], linewidth=0.9)
+        axes.set_xlabel("density, kg/m$^3$")
+        axes.set_title("water met")
+    else:
+        axes.plot(log["speed_through_water"].values, depth, color=COLOURS[2], linewidth=0.7)
+        axes.set_xlabel("speed through water, m/s")
+        axes.set_title("speed by depth")
