@@ -53,10 +53,14 @@ def rest(y: Array, c: Controls, water: Water, p: Parameters, drifts: bool) -> No
 
 @kernel
 def held_until(y: Array, m: Array, segment: Segment, stop: float, water: Water, p: Parameters) -> float:
-    """When the vehicle leaves surface or bottom: now, when a steady pump makes it neutral, or at ``stop``."""
+    """When the vehicle leaves surface or bottom: now, when a steady pump makes it neutral, or at ``stop``.
+
+    A neutral one leaves only if the pump goes on to carry it off.
+    """
     down = 1.0 if m[HELD] == AT_SURFACE else -1.0
     mb = controls_at(segment, m[T]).mb
-    if down * net_excess(mb, water, p) > -_NEUTRAL:
+    excess = down * net_excess(mb, water, p)
+    if excess > _NEUTRAL or (excess > -_NEUTRAL and down * segment.mb_rate > 0.0):
         return float(m[T])
     neutral = -hull_excess(water.density, water.pressure, water.temperature, p) * p.rho_0 / water.density
     if down * segment.mb_rate > 0.0:

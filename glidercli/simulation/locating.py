@@ -104,12 +104,17 @@ def ended(y: Array, new: Array, h: float, k: Array, m: Array, ends: Ends, work: 
     top, bend = (1.0, new[2]) if k[0, 2] * k[6, 2] >= 0.0 else turning_point(y, new, h, k, work)
     lowest, highest = max(new[2], bend), min(new[2], bend)
     floor, ceiling = min(ends.floor, ends.bottom), max(ends.ceiling, SURFACE)
+    sinks, rises = k[0, 2] > 0.0, k[0, 2] < 0.0
     if lowest >= floor and y[2] < floor:
         share = depth_share(y, new, h, k, floor, 0.0, top if bend >= floor else 1.0, work)
         status = GROUNDED if ends.bottom <= ends.floor else AT_DEPTH
-    elif highest <= ceiling and y[2] > ceiling:
-        share = depth_share(y, new, h, k, ceiling, 0.0, top if bend <= ceiling else 1.0, work)
+    elif highest <= ceiling and (y[2] > ceiling or (y[2] == ceiling and sinks)):
+        share = depth_share(y, new, h, k, ceiling, top if sinks else 0.0, top if bend <= ceiling else 1.0, work)
         status = SURFACED if ceiling == SURFACE else AT_DEPTH
+    elif y[2] <= SURFACE and new[2] < SURFACE and not sinks:
+        status, share = SURFACED, 0.0
+    elif y[2] >= ends.bottom and new[2] > ends.bottom and not rises:
+        status, share = GROUNDED, 0.0
     if ends.turn < math.inf and abs(m[TURN] + turned(new, m[HEADING])) >= ends.turn:
         at = turn_share(y, new, h, k, m, ends.turn, work)
         if at < share:

@@ -216,7 +216,7 @@ class Repeat:
     """Legs flown so many times; they may hold repeats themselves."""
 
     repeat: Annotated[int, Field(ge=1, le=MOST_LEGS)]
-    leg: tuple[MissionLeg, ...] = Field(min_length=1)
+    leg: tuple[MissionLeg, ...]
 
 
 _KINDS = ("dive", "climb", "spiral", "hold-heading", "drift", "wait", "controls", "repeat")
@@ -278,7 +278,7 @@ class Mission:
 
     name: str
     description: str
-    leg: tuple[MissionLeg, ...] = Field(min_length=1)
+    leg: tuple[MissionLeg, ...]
     duration_s: Seconds | None = None
     vehicle: str = "seawing"
     reconstruction: str | None = None
@@ -296,12 +296,12 @@ class Mission:
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        faults = []
+        faults = [] if next(flat(self.leg, 1), None) else ["leg = [], at least one is needed"]
         if self.bottom_m is None and any(getattr(leg, "until_altitude_m", None) is not None for leg in flat(self.leg)):
             faults.append("until_altitude_m needs bottom_m, the depth of the bottom")
         if self.bottom_m is not None and self.start_depth_m >= self.bottom_m:
             faults.append(f"start_depth_m = {self.start_depth_m:g}, allowed less than bottom_m = {self.bottom_m:g}")
-        last = self.leg[-1]
+        last = self.leg[-1] if self.leg else None
         if self.duration_s is None and isinstance(last, ControlsLeg) and last.until_depth_m is None:
             faults.append(f"leg {len(self.leg)} (controls) is the last and cannot end; needed is duration_s")
         if sum(1 for _ in flat(self.leg, MOST_LEGS + 1)) > MOST_LEGS:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
-from glidercli.frames import scale
+from glidercli.frames import Vector, scale
 from glidercli.log import Log
 from glidercli.model.parameters import Parameters
 from glidercli.simulation.legs import Leg
@@ -103,25 +103,37 @@ def start_of(log: Log, depth: float | None, steady: Settled | None) -> tuple[Sta
         warnings.append("initial heading: not recorded within 60 s of the first depth; 0 deg is taken")
     for name, limit in _PLAUSIBLE.items():
         value = found[name]
-        if value is not None and abs(value) <= limit and (name != "speed_through_water" or value > 0.0):
+        if value is not None and abs(value) <= limit:
             continue
         shown = value if value is None or name == "speed_through_water" else math.degrees(value)
         unit = "m/s" if name == "speed_through_water" else "deg"
         why = "is not recorded" if shown is None else f"of {shown:.4g} {unit} is not plausible"
         warnings.append(f"initial {name.replace('_', ' ')} {why}; taken is {what}")
         found[name] = None
-    speed, roll, pitch = found["speed_through_water"], found["roll"], found["pitch"]
-    size = math.hypot(*instead.V)
-    V = instead.V if speed is None else scale(speed / size, instead.V) if size > 0.0 else (speed, 0.0, 0.0)
+    V, Omega = _motion(log, at, found["speed_through_water"], instead)
+    roll, pitch = found["roll"], found["pitch"]
     start = Start(
         depth=recorded if depth is None else depth,
         roll=instead.roll if roll is None else roll,
         pitch=instead.pitch if pitch is None else pitch,
         heading=found["heading"] or 0.0,
         V=V,
-        Omega=instead.Omega,
+        Omega=Omega,
     )
     return start, warnings
+
+
+def _motion(log: Log, at: int, speed: float | None, instead: Settled) -> tuple[Vector, Vector]:
+    """Velocity through water and body rates: as recorded; or the recorded speed, its direction that of the steady
+    flight that stands in; or that flight."""
+    if speed is None:
+        return instead.V, instead.Omega
+    V, Omega = ([_value(log, name, at) for name in names] for names in ("uvw", "pqr"))
+    rates = (Omega[0] or 0.0, Omega[1] or 0.0, Omega[2] or 0.0)
+    if V[0] is not None and V[1] is not None and V[2] is not None:
+        return (V[0], V[1], V[2]), rates
+    size = math.hypot(*instead.V)
+    return (scale(speed / size, instead.V) if size > 0.0 else (speed, 0.0, 0.0)), rates
 
 
 def place_of(log: Log) -> tuple[float, float] | None:

@@ -39,6 +39,7 @@ from glidercli.simulation.memory import (
     HEADING,
     HELD,
     LIFTS,
+    LOGGED,
     ON_BOTTOM,
     RESTED,
     ROW,
@@ -163,6 +164,7 @@ def fly_stretch(
     k, new, work = np.zeros((7, WIDTH)), np.empty(SIZE), np.empty(SIZE)
     first = m[ROW]
     until = min(until, ends.time)
+    left, thrown_back = -1.0, False
     while m[T] < until:
         water = at_depth(sea, y[2])
         if len(times_) > 0:
@@ -174,20 +176,25 @@ def fly_stretch(
             if m[RESTED] == 0.0:
                 rest(y, controls_at(segment, m[T]), water, p, m[HELD] == AT_SURFACE)
                 m[RESTED], m[STEP] = 1.0, FIRST_STEP
-            leaves = held_until(y, m, segment, stop, water, p)
+            leaves = stop if thrown_back else held_until(y, m, segment, stop, water, p)
+            thrown_back = False
             if leaves > m[T]:
                 drift(y, m, segment, leaves, sea, every, out, first, work)
                 move_actuators(m, segment, leaves, p)
                 m[T] = leaves
                 continue
             note_event(log, m, DIVES if m[HELD] == AT_SURFACE else LIFTS, m[T], y[2])
-            m[HELD] = FREE
+            m[HELD], left = FREE, m[T]
         status = fly_segment(
             y, m, segment, stop, ends, sea, p, full, every, out, first, rtol, scales, reached, log, k, new, work
         )
         if status in (SURFACED, GROUNDED):
             surfaced = status == SURFACED
-            note_event(log, m, SURFACING if surfaced else GROUNDING, m[T], y[2])
+            thrown_back = bool(m[T] == left)  # water that moves up or down does not let it go
+            if thrown_back:
+                m[LOGGED] -= 1.0
+            else:
+                note_event(log, m, SURFACING if surfaced else GROUNDING, m[T], y[2])
             m[HELD] = AT_SURFACE if surfaced else ON_BOTTOM
             m[RESTED] = 0.0
             if not (ends.surface_ends if surfaced else ends.bottom_ends):
