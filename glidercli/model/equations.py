@@ -107,16 +107,16 @@ def equilibrium(
 def shear_wrench(
     V_ned: Vector, REB: tuple[Vector, Vector, Vector], at: Placement, water: Water, p: Parameters
 ) -> tuple[Vector, Vector]:
-    """Force and moment of a steady current that changes with depth, N and N m, body frame; eq. (50) leaves them out.
+    """Force and moment of a current that changes with depth and time, N and N m, body frame; eq. (50) has none.
 
-    Rigid mass feels absolute acceleration: with a = zdot dU/dz along the vehicle's way and a_w = W dU/dz along the
-    water's, the force is -(ms + mr) R^T a + md R^T a_w and the moment -s x R^T a.
+    Rigid mass feels absolute acceleration: with a = dU/dt + zdot dU/dz along the vehicle's way and
+    a_w = dU/dt + W dU/dz along the water's, the force is -(ms + mr) R^T a + md R^T a_w and the moment -s x R^T a.
 
     V_ned : velocity over ground, m/s. md is the displaced mass, W the downward current, s the first moment.
     """
     RBE = transposed(REB)
-    a = times(RBE, scale(V_ned[2], water.shear))
-    a_w = times(RBE, scale(water.current[2], water.shear))
+    a = times(RBE, add(water.change, scale(V_ned[2], water.shear)))
+    a_w = times(RBE, add(water.change, scale(water.current[2], water.shear)))
     md = displaced_mass(at.mb, water.density, water.pressure, water.temperature, p)
     return add(scale(-(p.ms + p.mr), a), scale(md, a_w)), scale(-1.0, cross(at.s, a))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,10 +15,11 @@ from glidercli.ocean.cnv import is_cnv, parse_cnv
 from glidercli.ocean.downcast import DEEPEST_DBAR, SALINITY, TEMPERATURE, downcast
 from glidercli.ocean.profile import wide_gaps
 from glidercli.ocean.seabird import PRESSURE, samples
+from glidercli.ocean.series import Moment, parts
 from glidercli.ocean.source import left_out, listed, read_text
 from glidercli.ocean.table import Table, parse_table
 
-__all__ = ["Cast", "read_ctd"]
+__all__ = ["Cast", "read_casts", "read_ctd"]
 
 Array = NDArray[np.float64]
 
@@ -50,6 +52,7 @@ class Cast:
     dropped : samples left out, as (reason, count).
     warnings : one line each, without the file's name.
     reconstructed : whether the file says that it is a reconstruction.
+    moment : when it holds, of a profile among several; None of a single one, which always holds.
     """
 
     depth: Array
@@ -65,6 +68,7 @@ class Cast:
     dropped: tuple[tuple[str, int], ...]
     warnings: tuple[str, ...]
     reconstructed: bool = False
+    moment: Moment | None = None
 
     @property
     def records(self) -> int:
@@ -104,6 +108,18 @@ class _Place:
         return tuple(lines)
 
 
+def read_casts(path: str | Path, latitude: float | None = None) -> tuple[Cast, ...]:
+    """The casts of a file: of a table one for each time that several rows share; see ``read_ctd`` for each."""
+    path = Path(path)
+    text = read_text(path, _EXPECTED)
+    if is_cnv(text):
+        return (read_ctd(path, latitude),)
+    if latitude is not None:
+        seawater.checked_latitude(latitude)
+    table = parse_table(path, text, _EXPECTED)
+    return tuple(dataclasses.replace(_from_table(part, latitude), moment=moment) for moment, part in parts(table))
+
+
 def read_ctd(path: str | Path, latitude: float | None = None) -> Cast:
     """The cast in a Sea-Bird .cnv file or a plain table, told apart by content; either may be gzipped.
 
@@ -140,9 +156,9 @@ def _from_cnv(path: Path, text: str, latitude: float | None) -> Cast:
     total = len(file.rows) + file.unreadable
     if file.announced is not None and file.announced != total:
         warnings = (f"the header announces {file.announced} rows, the file has {total}: it may be cut off", *warnings)
-    if len(kept) == 0:
-        reasons = ", ".join(f"{count} {reason}" for reason, count in dropped)
-        raise InputError(path, f"has no usable sample among {total}: {reasons}; at least one is needed")
+    if len(kept) < 2:
+        reasons = ", ".join(f"{count} {reason}" for reason, count in dropped) or "nothing dropped"
+        raise InputError(path, f"has {len(kept)} usable samples of {total}: {reasons}; at least two are needed")
     pressure, temperature = recorded.pressure_dbar[kept], recorded.temperature[kept]
     salinity = recorded.salinity[kept]
     absolute = _absolute_salinity(salinity, pressure, place)
@@ -186,6 +202,10 @@ def _from_table(table: Table, latitude: float | None) -> Cast:
     if absolute is None and salinity is not None:
         absolute = _absolute_salinity(salinity, pressure, place)
     density, warnings = _density(table, absolute, temperature, pressure)
+    if len(table) < 2:
+        raise InputError(
+            table.path, f"line {table.lines[0]}: is the only usable sample of its profile; at least two are needed"
+        )
     missing = next((name.split("_")[0] for name in ("depth_m", "pressure_dbar") if name not in table), None)
     if unknown := table.unknown(_USED):
         warnings += (f"columns not known and not used: {listed(unknown)}",)
@@ -223,7 +243,7 @@ def _complete(table: Table) -> tuple[Table, tuple[tuple[str, int], ...]]:
             kept &= ~lacking
     if not kept.any():
         reasons = ", ".join(f"{count} {reason}" for reason, count in dropped)
-        raise InputError(table.path, f"has no usable sample among {len(table)}: {reasons}; at least one is needed")
+        raise InputError(table.path, f"has no usable sample among {len(table)}: {reasons}; at least two are needed")
     return table.rows(kept), tuple(dropped)
 
 

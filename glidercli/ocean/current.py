@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,10 +11,11 @@ from numpy.typing import NDArray
 
 from glidercli.errors import InputError
 from glidercli.ocean.profile import wide_gaps
+from glidercli.ocean.series import Moment, parts
 from glidercli.ocean.source import left_out, listed, read_text
-from glidercli.ocean.table import parse_table
+from glidercli.ocean.table import Table, parse_table
 
-__all__ = ["CurrentProfile", "read_adcp"]
+__all__ = ["CurrentProfile", "read_adcp", "read_currents"]
 
 Array = NDArray[np.float64]
 
@@ -33,6 +35,7 @@ class CurrentProfile:
     dropped : bins left out, as (reason, count).
     warnings : one line each, without the file's name.
     reconstructed : whether the file says that it is a reconstruction.
+    moment : when it holds, of a profile among several; None of a single one, which always holds.
     """
 
     depth: Array
@@ -43,11 +46,19 @@ class CurrentProfile:
     dropped: tuple[tuple[str, int], ...]
     warnings: tuple[str, ...]
     reconstructed: bool = False
+    moment: Moment | None = None
 
     @property
     def records(self) -> int:
         """Bins in the file: those kept and those dropped."""
         return len(self.depth) + sum(count for _, count in self.dropped)
+
+
+def read_currents(path: str | Path) -> tuple[CurrentProfile, ...]:
+    """The current profiles of a table, one for each time that several rows share; see ``read_adcp`` for each."""
+    path = Path(path)
+    table = parse_table(path, read_text(path, _ALLOWED), _ALLOWED)
+    return tuple(dataclasses.replace(_profile(part), moment=moment) for moment, part in parts(table))
 
 
 def read_adcp(path: str | Path) -> CurrentProfile:
@@ -62,7 +73,11 @@ def read_adcp(path: str | Path) -> CurrentProfile:
         The file or a column cannot be used, a cell is no number, depths do not increase, or no bin is left.
     """
     path = Path(path)
-    table = parse_table(path, read_text(path, _ALLOWED), _ALLOWED)
+    return _profile(parse_table(path, read_text(path, _ALLOWED), _ALLOWED))
+
+
+def _profile(table: Table) -> CurrentProfile:
+    path = table.path
     missing = tuple(name for name in ("depth_m", _EAST, _NORTH) if name not in table)
     if missing:
         raise InputError(path, f"has no column {listed(missing)}; its columns are {listed(table.columns)}; {_ALLOWED}")
@@ -84,7 +99,10 @@ def read_adcp(path: str | Path) -> CurrentProfile:
     good = ~(gap | marked | fast)
     if not good.any():
         reasons = ", ".join(f"{count} {reason}" for reason, count in dropped)
-        raise InputError(path, f"has no usable bin among {len(table)}: {reasons}; at least one is needed")
+        raise InputError(path, f"has no usable bin among {len(table)}: {reasons}; at least two are needed")
+    if good.sum() < 2:
+        line = table.lines[int(np.flatnonzero(good)[0])]
+        raise InputError(path, f"line {line}: is the only usable bin of its profile; at least two are needed")
     unknown = table.unknown((_EAST, _NORTH, _UP))
     warnings = left_out(dropped, len(table), "bins")
     if dropped and good.sum() > 1:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from glidercli.errors import InputError
 from glidercli.ocean import seawater
 from glidercli.ocean.cast import Cast
 from glidercli.ocean.current import CurrentProfile
-from glidercli.ocean.profile import Profile, pchip
+from glidercli.ocean.profile import Profile, in_time, pchip
 from glidercli.ocean.water import Sea, Water, at_depth
 from glidercli.units import DBAR, STANDARD_GRAVITY
 
@@ -21,7 +22,7 @@ __all__ = ["Ocean"]
 
 @dataclass(frozen=True)
 class Ocean:
-    """Water and current by depth, and gravity; neither varies with time or place.
+    """Water and current by depth and, if several profiles were given, by time; and gravity; the same everywhere.
 
     water : profile with the columns density (kg/m3), pressure (Pa), temperature (degC).
     current : profile with the columns north, east, down (m/s).
@@ -66,39 +67,44 @@ class Ocean:
     def build(
         cls,
         density_reference: float,
-        cast: Cast | None = None,
-        current: CurrentProfile | None = None,
+        casts: Cast | Sequence[Cast] = (),
+        currents: CurrentProfile | Sequence[CurrentProfile] = (),
         latitude: float | None = None,
         temperature_reference: float = math.nan,
+        start_ns: int | None = None,
     ) -> Ocean:
-        """The ocean of a cast and a current profile, each of which may be missing.
+        """The ocean of casts and current profiles: none, one, or several in time.
 
         Parameters
         ----------
         density_reference : kg/m3, of the uniform water without a cast.
         latitude : degrees north, for gravity at the surface; 9.81 m/s2 without it, whatever the cast's place is.
-        temperature_reference : degC, held where the cast has no temperature; NaN says that it is not known.
+        temperature_reference : degC, held where the casts have no temperature; NaN says that it is not known.
+        start_ns : UTC since 1970, of the flight: where profiles have times in UTC.
+
+        Raises
+        ------
+        InputError
+            Profiles have times in UTC, and the flight has no start.
         """
         gravity = STANDARD_GRAVITY if latitude is None else seawater.gravity(latitude)
         still = cls.uniform(density_reference, gravity, temperature_reference)
-        water, flow = still.water, still.current
-        if cast is not None:
-            unknown = np.full(len(cast.depth), temperature_reference)
-            temperature = unknown if cast.temperature is None else cast.temperature
-            water = pchip(cast.depth, np.stack([cast.density, cast.pressure_dbar * DBAR, temperature], axis=1))
-        if current is not None:
-            flow = pchip(current.depth, np.stack([current.north, current.east, -current.up], axis=1))
-        given = [item for item in (cast, current) if item is not None]
+        casts = (casts,) if isinstance(casts, Cast) else tuple(casts)
+        currents = (currents,) if isinstance(currents, CurrentProfile) else tuple(currents)
+        measured = bool(casts) and all(cast.temperature is not None for cast in casts)
+        water = [_water(cast, temperature_reference if not measured else None) for cast in casts]
+        flow = [pchip(c.depth, np.stack([c.north, c.east, -c.up], axis=1)) for c in currents]
+        given: list[Cast | CurrentProfile] = [*casts, *currents]
         return cls(
-            water=water,
-            current=flow,
+            water=in_time(_times(casts, start_ns), water) if casts else still.water,
+            current=in_time(_times(currents, start_ns), flow) if currents else still.current,
             gravity=gravity,
-            stratified=cast is not None,
-            has_temperature=cast is not None and cast.temperature is not None,
-            moving=current is not None,
-            warnings=tuple(f"{item.source}: {line}" for item in given for line in item.warnings),
-            inputs=tuple(item.source for item in given),
-            reconstructed=tuple(item.source for item in given if item.reconstructed),
+            stratified=bool(casts),
+            has_temperature=measured,
+            moving=bool(currents),
+            warnings=_once(tuple(f"{item.source}: {line}" for item in given for line in item.warnings)),
+            inputs=tuple(dict.fromkeys(item.source for item in given)),
+            reconstructed=tuple(dict.fromkeys(item.source for item in given if item.reconstructed)),
         )
 
     @property
@@ -106,21 +112,58 @@ class Ocean:
         """The same in the form that kernels read."""
         return Sea(self.water, self.current, self.gravity)
 
-    def at(self, depth: float) -> Water:
-        """The water at one depth, m."""
-        return at_depth(self.sea, depth)
+    def at(self, depth: float, time: float = 0.0) -> Water:
+        """The water at one depth, m, and time, s."""
+        return at_depth(self.sea, depth, time)
 
-    def beyond(self, shallowest: float, deepest: float) -> list[str]:
-        """Warnings where a flight between two depths, m, leaves the cast or current profile, whose ends are held."""
+    def beyond(self, shallowest: float, deepest: float, duration: float = 0.0) -> list[str]:
+        """Warnings where a flight between two depths, m, of a duration, s, leaves the casts or current profiles, whose
+        ends are held."""
         warnings = []
         for name, profile, given in (
             ("cast", self.water, self.stratified),
             ("current profile", self.current, self.moving),
         ):
-            top, bottom = float(profile.depth[0]), float(profile.depth[-1])
+            top = float(profile.depth[profile.first[:-1]].max())
+            bottom = float(profile.depth[profile.first[1:] - 1].min())
+            began, ended = float(profile.times[0]), float(profile.times[-1])
+            if len(profile.times) > 1 and (began > 0.0 or duration > ended):
+                warnings.append(
+                    f"the flight lasts from 0 to {duration:.0f} s, the {name}s from {began:.0f} to {ended:.0f} s; the "
+                    "first and the last are held beyond"
+                )
             if given and (shallowest < top or deepest > bottom):
                 warnings.append(
                     f"the flight spans {shallowest:z.1f} to {deepest:.1f} m, the {name} {top:.1f} to {bottom:.1f} m; "
                     "its end values are held beyond"
                 )
         return warnings
+
+
+def _water(cast: Cast, reference: float | None) -> Profile:
+    """Density, pressure and temperature of a cast; a reference temperature where it is not None."""
+    temperature = cast.temperature
+    if temperature is None or reference is not None:
+        temperature = np.full(len(cast.depth), reference)
+    return pchip(cast.depth, np.stack([cast.density, cast.pressure_dbar * DBAR, temperature], axis=1))
+
+
+def _times(profiles: Sequence[Cast | CurrentProfile], start_ns: int | None) -> list[float]:
+    """When each profile holds, s since the start of the flight; 0 of a single one."""
+    times = []
+    for profile in profiles:
+        seconds = 0.0 if profile.moment is None else profile.moment.since(start_ns)
+        if seconds is None:
+            raise InputError(
+                profile.source, "its profiles have times in UTC, and the flight has none: start_time in a mission, or "
+                "elapsed_s in the table, is needed"
+            )  # fmt: skip
+        times.append(seconds)
+    return times
+
+
+def _once(lines: tuple[str, ...], most: int = 8) -> tuple[str, ...]:
+    """Each line once, and not more than a screen can hold."""
+    told = tuple(dict.fromkeys(lines))
+    more = (f"{len(told) - most} more warnings of the water's profiles",) if len(told) > most else ()
+    return told[:most] + more

@@ -1,12 +1,14 @@
-"""What is the value at a depth, and its slope? Piecewise cubic profiles that run as plain Python or compiled.
+"""What is the value at a depth and a time, and its slope? Piecewise cubic profiles, plain Python or compiled.
 
 Between samples a profile is the monotone cubic of Fritsch and Carlson (1980, SIAM J. Numer. Anal. 17, 238-246): it
 passes through every sample, has a continuous slope and never overshoots. Beyond its first and last sample it is held
-constant.
+constant. Several profiles, each of a time, are linear in time between them and held before the first and after the
+last.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +18,9 @@ from glidercli.errors import InputError
 from glidercli.kernel import kernel
 from glidercli.ocean.source import listed
 
-__all__ = ["Profile", "cubic", "cubic_slope", "interval", "locate", "pchip", "wide_gaps"]
+__all__ = [
+    "Profile", "cubic", "cubic_slope", "in_time", "interval", "locate", "moment", "next_moment", "pchip", "wide_gaps",
+]  # fmt: skip
 
 
 _GAP_RATIO, _GAP_LEAST = 5.0, 5.0  # standard depths grow by less from step to step; m, below it little can hide
@@ -24,12 +28,16 @@ _GAP_REACH = 5  # intervals to either side that tell what is usual
 
 
 class Profile(NamedTuple):
-    """Quantities by depth, one column each."""
+    """Quantities by depth, one column each; the profiles of several times stand one after the other."""
 
     depth: NDArray[np.float64]
-    """(n,), m, positive down, strictly increasing."""
+    """(n,), m, positive down, strictly increasing within each profile."""
     coefficients: NDArray[np.float64]
-    """(4, max(n - 1, 1), k), highest power first, in the local coordinate z - depth[i]."""
+    """(4, n, k), highest power first, in the local coordinate z - depth[i]; the last row of each profile is its end."""
+    times: NDArray[np.float64]
+    """(m,), s, strictly increasing."""
+    first: NDArray[np.int64]
+    """(m + 1,), where each profile begins in depth, and n."""
 
 
 def pchip(depth: ArrayLike, values: ArrayLike) -> Profile:
@@ -58,15 +66,25 @@ def pchip(depth: ArrayLike, values: ArrayLike) -> Profile:
         raise InputError("profile", "holds a depth or value that is not finite; samples that lack one must be left out")
     if (np.diff(z) <= 0.0).any():
         raise InputError("profile", "has depths that do not increase; each must be greater than the one before")
-    coefficients = np.zeros((4, max(len(z) - 1, 1), y.shape[1]))
+    coefficients = np.zeros((4, len(z), y.shape[1]))
     coefficients[:, :, ~known] = np.nan
-    if len(z) == 1:
-        coefficients[3, 0] = y[0]
-    else:
+    coefficients[3, -1] = y[-1]
+    if len(z) > 1:
         from scipy.interpolate import PchipInterpolator
 
-        coefficients[:, :, known] = PchipInterpolator(z, y[:, known]).c
-    return Profile(z, coefficients)
+        coefficients[:, :-1, known] = PchipInterpolator(z, y[:, known]).c
+    return Profile(z, coefficients, np.zeros(1), np.array([0, len(z)]))
+
+
+def in_time(times: ArrayLike, profiles: Sequence[Profile]) -> Profile:
+    """Profiles of the same columns, each of a time, s, strictly increasing, as one."""
+    lengths = [len(profile.depth) for profile in profiles]
+    return Profile(
+        np.concatenate([profile.depth for profile in profiles]),
+        np.concatenate([profile.coefficients for profile in profiles], axis=1),
+        np.ascontiguousarray(times, dtype=np.float64),
+        np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64),
+    )
 
 
 def wide_gaps(depth: NDArray[np.float64], what: str) -> tuple[str, ...]:
@@ -89,7 +107,12 @@ def wide_gaps(depth: NDArray[np.float64], what: str) -> tuple[str, ...]:
 @kernel
 def interval(knots: NDArray[np.float64], x: float) -> int:
     """Index of the last knot that is not beyond x, by bisection; -1 where every knot is. Knots increase."""
-    low, high = -1, len(knots)
+    return interval_between(knots, x, -1, len(knots))
+
+
+@kernel
+def interval_between(knots: NDArray[np.float64], x: float, low: int, high: int) -> int:
+    """The same where it is known to lie from ``low`` on and before ``high``."""
     while high - low > 1:
         middle = (low + high) // 2
         if knots[middle] <= x:
@@ -100,18 +123,39 @@ def interval(knots: NDArray[np.float64], x: float) -> int:
 
 
 @kernel
-def locate(profile: Profile, z: float) -> tuple[int, float, bool]:
-    """The interval that holds depth z, m, the coordinate z - depth[i] in it, and whether z is beyond the ends.
+def moment(profile: Profile, t: float) -> tuple[int, float]:
+    """Number of the profile that holds at time t, s, and the share of the one after it; 0 where there is none."""
+    times = profile.times
+    last = times.shape[0] - 1
+    if last == 0 or t <= times[0]:
+        return 0, 0.0
+    if t >= times[last]:
+        return last, 0.0
+    low = interval(times, t)
+    return low, (t - times[low]) / (times[low + 1] - times[low])
 
-    At and beyond an end the coordinate is that of the end.
+
+@kernel
+def next_moment(profile: Profile, t: float) -> float:
+    """The next time, s, at which the change in time changes; infinite after the last."""
+    low = interval(profile.times, t)
+    return profile.times[low + 1] if low + 1 < len(profile.times) else np.inf
+
+
+@kernel
+def locate(profile: Profile, number: int, z: float) -> tuple[int, float, bool]:
+    """The interval of a profile that holds depth z, m, the coordinate z - depth[i] in it, and whether z is beyond the
+    ends, where the value is that of the end.
+
+    number : of the profile, 0 where there is one only.
     """
     depth = profile.depth
-    last = depth.shape[0] - 1
-    if last == 0 or z <= depth[0]:
-        return 0, 0.0, True
-    if z >= depth[last]:
-        return last - 1, depth[last] - depth[last - 1], True
-    low = interval(depth, z)
+    top, bottom = profile.first[number], profile.first[number + 1] - 1
+    if z >= depth[bottom]:
+        return bottom, 0.0, True
+    if z <= depth[top]:
+        return top, 0.0, True
+    low = interval_between(depth, z, top, bottom)
     return low, z - depth[low], False
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from glidercli.channels import by_column
 from glidercli.errors import InputError
@@ -76,8 +76,8 @@ class Table:
         """Where a column's cells are empty or "NaN", (n,); InputError for other text that is no number."""
         return np.isnan(self.measured(column))
 
-    def rows(self, kept: NDArray[np.bool_]) -> Table:
-        """The table of some of its rows. kept : (n,)."""
+    def rows(self, kept: ArrayLike) -> Table:
+        """The table of some of its rows. kept : (n,), whether to keep each."""
         chosen = np.flatnonzero(kept)
         cells = {name: tuple(column[i] for i in chosen) for name, column in self.cells.items()}
         return Table(self.path, tuple(self.lines[i] for i in chosen), cells)

@@ -1,14 +1,16 @@
-"""What does a vehicle meet at a depth? Density, pressure, temperature and current there, as kernels read them."""
+"""What does a vehicle meet at a depth and a time? Density, pressure, temperature and current, as kernels read them."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from glidercli.frames import Vector
-from glidercli.kernel import kernel
-from glidercli.ocean.profile import Profile, cubic, cubic_slope, locate
+import numpy as np
 
-__all__ = ["Sea", "Water", "at_depth"]
+from glidercli.frames import Vector, add, scale
+from glidercli.kernel import kernel
+from glidercli.ocean.profile import Profile, cubic, cubic_slope, locate, moment, next_moment
+
+__all__ = ["Sea", "Water", "at_depth", "next_change"]
 
 DENSITY, PRESSURE, TEMPERATURE = 0, 1, 2
 """Columns of the water profile: kg/m3 in situ, Pa, degC."""
@@ -31,6 +33,8 @@ class Water(NamedTuple):
     """Derivative of the current by depth, 1/s, NED."""
     gravity: float
     """m/s2."""
+    change: Vector = (0.0, 0.0, 0.0)
+    """Derivative of the current by time at this depth, m/s2, NED."""
 
 
 class Sea(NamedTuple):
@@ -42,22 +46,52 @@ class Sea(NamedTuple):
 
 
 @kernel
-def at_depth(sea: Sea, z: float) -> Water:
-    """The water at depth z, m, positive down: monotone cubic between samples, end values held beyond them."""
-    i, x, _ = locate(sea.water, z)
-    j, y, beyond = locate(sea.current, z)
-    shear = (0.0, 0.0, 0.0)
-    if not beyond:
-        shear = (
-            cubic_slope(sea.current, j, y, NORTH),
-            cubic_slope(sea.current, j, y, EAST),
-            cubic_slope(sea.current, j, y, DOWN),
-        )
-    return Water(
-        cubic(sea.water, i, x, DENSITY),
-        cubic(sea.water, i, x, PRESSURE),
-        cubic(sea.water, i, x, TEMPERATURE),
-        (cubic(sea.current, j, y, NORTH), cubic(sea.current, j, y, EAST), cubic(sea.current, j, y, DOWN)),
-        shear,
-        sea.gravity,
-    )
+def at_depth(sea: Sea, z: float, t: float) -> Water:
+    """The water at depth z, m, positive down, and time t, s.
+
+    Monotone cubic in depth between samples, linear in time between profiles, end values held beyond both.
+    """
+    number, share = moment(sea.water, t)
+    density, pressure, temperature = _density(sea.water, number, z)
+    if share > 0.0:
+        later = _density(sea.water, number + 1, z)
+        density += share * (later[0] - density)
+        pressure += share * (later[1] - pressure)
+        temperature += share * (later[2] - temperature)
+    number, share = moment(sea.current, t)
+    current, shear = _current(sea.current, number, z)
+    change = (0.0, 0.0, 0.0)
+    if number + 1 < len(sea.current.times) and t >= sea.current.times[0]:
+        after, shear_after = _current(sea.current, number + 1, z)
+        change = add(after, scale(-1.0, current))
+        current = add(current, scale(share, change))
+        shear = add(shear, scale(share, add(shear_after, scale(-1.0, shear))))
+        change = scale(1.0 / (sea.current.times[number + 1] - sea.current.times[number]), change)
+    return Water(density, pressure, temperature, current, shear, sea.gravity, change)
+
+
+@kernel
+def _density(water: Profile, number: int, z: float) -> tuple[float, float, float]:
+    """Density, pressure and temperature of one profile at a depth, m."""
+    i, x, _ = locate(water, number, z)
+    return cubic(water, i, x, DENSITY), cubic(water, i, x, PRESSURE), cubic(water, i, x, TEMPERATURE)
+
+
+@kernel
+def _current(current: Profile, number: int, z: float) -> tuple[Vector, Vector]:
+    """Current, m/s, and its derivative by depth, 1/s, of one profile at a depth, m."""
+    i, x, beyond = locate(current, number, z)
+    U = (cubic(current, i, x, NORTH), cubic(current, i, x, EAST), cubic(current, i, x, DOWN))
+    if beyond:
+        return U, (0.0, 0.0, 0.0)
+    return U, (
+        cubic_slope(current, i, x, NORTH), cubic_slope(current, i, x, EAST), cubic_slope(current, i, x, DOWN),
+    )  # fmt: skip
+
+
+@kernel
+def next_change(sea: Sea, t: float) -> float:
+    """The next time, s, at which the water begins to change otherwise; infinite where it does not."""
+    if len(sea.water.times) == 1 and len(sea.current.times) == 1:
+        return np.inf
+    return min(next_moment(sea.water, t), next_moment(sea.current, t))

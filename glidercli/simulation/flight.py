@@ -188,11 +188,11 @@ def fly(
     events: list[FlightEvent] = []
     times, rows, ended_at, wall = [np.zeros(1)], [_row(y, m)], 0.0, 0.0
 
-    def samples_of(rows: list[Array]) -> Array:
-        states = np.vstack(rows)
+    def seen(times: list[Array], rows: list[Array]) -> tuple[Array, Array]:
+        when, states = np.concatenate(times), np.vstack(rows)
         samples = np.empty((len(states), len(COLUMNS)))
-        look(states, sea, p, full, samples)
-        return samples
+        look(when, states, sea, p, full, samples)
+        return when, samples
 
     for number, leg in enumerate(legs):
         last_leg = number == len(legs) - 1
@@ -203,7 +203,7 @@ def fly(
         m[COMMAND_RRX : COMMAND_MB + 1] = commands
         given = (order, drives, leg.times, leg.values, ends, sea, p, full, every)
         if leg.steered and np.isnan(leg.until_altitude) and math.isinf(min(leg.duration, leg.turns)):
-            _check_reach(leg.name, order, drives, float(y[2]), leg.until_depth, sea, p)
+            _check_reach(leg.name, order, drives, float(y[2]), float(m[T]), leg.until_depth, sea, p)
         run(y, m, -math.inf, *given, np.empty((0, ROW_WIDTH)), *common)  # compiles, if it must
         there = (leg.goes == "down" and y[2] >= ends.floor) or (leg.goes == "up" and y[2] <= ends.ceiling)
         status, apogee, began_at = AT_DEPTH if there else GOING_ON, None, float(y[2])
@@ -232,7 +232,7 @@ def fly(
             if progress is not None:
                 progress(float(m[T]), duration)
             if give is not None and sum(map(len, times)) > _PIECE:
-                give(np.concatenate(times), samples_of(rows))
+                give(*seen(times, rows))
                 times, rows = [], []
         if m[T] > max(every * (m[ROW] - 1.0), ended_at):
             ended_at = float(m[T])
@@ -247,20 +247,22 @@ def fly(
             break
     if not times or not sum(map(len, times)):  # the last samples were given away
         times, rows = [np.full(1, ended_at)], [_row(y, m)]
-    samples = samples_of(rows)
+    when, samples = seen(times, rows)
     if give is not None:
-        give(np.concatenate(times), samples)
+        give(when, samples)
     names = ("angle of attack", "sideslip", "roll")
     angles = zip(names, reached.limits.tolist(), reached.angles.tolist(), strict=True)
     return Flight(
-        times=np.concatenate(times),
+        times=when,
         samples=samples,
         events=tuple(sorted(events, key=lambda event: event.time)),
         excursions=tuple(Excursion(name, limit, *row) for name, limit, row in angles if row[0] > 0.0),
         depths=(float(reached.depths[0, 0]), float(reached.depths[1, 0])),
         start_depth=start.depth,
         distance=float(y[TRACK]),
-        excess=net_excess(float(samples[-1, COLUMNS.index("net_buoyancy")]), at_depth(sea, float(y[2])), p),
+        excess=net_excess(
+            float(samples[-1, COLUMNS.index("net_buoyancy")]), at_depth(sea, float(y[2]), float(m[T])), p
+        ),
         tallies=Tallies(
             slid=float(m[SLID]),
             rotated=float(m[ROTATED]),
@@ -288,7 +290,7 @@ def _begin(
     y = np.zeros(SIZE)
     y[2] = start.depth
     y[3:7] = start.q_wxyz
-    water = at_depth(sea, start.depth)
+    water = at_depth(sea, start.depth, 0.0)
     y[7:10], y[10:13] = momentum(start.V, start.Omega, Controls(*controls, 0.0, 0.0), water.density / p.rho_ref, p)
     m = new_memory(controls, start.heading)
     mb = controls[2]
@@ -304,7 +306,9 @@ def _begin(
     return y, m
 
 
-def _check_reach(name: str, order: Order, drives: Drives, depth: float, until: float, sea: Sea, p: Parameters) -> None:
+def _check_reach(
+    name: str, order: Order, drives: Drives, depth: float, t: float, until: float, sea: Sea, p: Parameters
+) -> None:
     """Refuse a leg that ends at a depth, m, which its net buoyancy does not carry it to.
 
     A vehicle coasts through a layer that lifts it as far as its kinetic energy goes. Water that moves up or down may
@@ -316,7 +320,7 @@ def _check_reach(name: str, order: Order, drives: Drives, depth: float, until: f
     steps = np.linspace(depth, until, _LOOKS)
     work = 0.0
     for z in steps:
-        water = at_depth(sea, float(z))
+        water = at_depth(sea, float(z), t)
         mb = within(pumped_for(order, water, p), drives.mb_min, drives.mb_max)
         excess = net_excess(mb, water, p)
         work = max(0.0, work - way * excess * water.gravity * abs(until - depth) / _LOOKS)

@@ -74,19 +74,24 @@ def drift(
 ) -> None:
     """Hold the vehicle until ``stop``, s: at the surface it goes with the current there, on the bottom nowhere."""
     start = m[T]
-    U = at_depth(sea, y[2]).current
-    if m[HELD] == ON_BOTTOM:
-        U = (0.0, 0.0, 0.0)
-    length = math.sqrt(U[0] * U[0] + U[1] * U[1])
     for j in range(SIZE):
         work[j] = y[j]
     while m[ROW] * every <= stop:
         t = m[ROW] * every
-        work[0], work[1] = y[0] + U[0] * (t - start), y[1] + U[1] * (t - start)
-        work[TRACK] = y[TRACK] + length * (t - start)
+        _carry(work, y, m[HELD], start, t, sea)
         record(out[int(m[ROW] - first)], work, controls_at(segment, t))
         m[ROW] += 1.0
-    for j in range(2):
-        y[j] += U[j] * (stop - start)
-    y[TRACK] += length * (stop - start)
-    y[PUMP_WORK] += segment.oil_rate * drive_pressure(at_depth(sea, y[2]), y[2]) * (stop - start)
+    _carry(work, y, m[HELD], start, stop, sea)
+    y[0], y[1], y[TRACK] = work[0], work[1], work[TRACK]
+    y[PUMP_WORK] += segment.oil_rate * drive_pressure(at_depth(sea, y[2], start), y[2]) * (stop - start)
+
+
+@kernel
+def _carry(out: Array, y: Array, held: float, start: float, t: float, sea: Sea) -> None:
+    """Where the current, linear in time, has carried the vehicle since ``start``, s; on the bottom nowhere."""
+    if held == ON_BOTTOM:
+        return
+    before, after = at_depth(sea, y[2], start).current, at_depth(sea, y[2], t).current
+    north, east = 0.5 * (before[0] + after[0]) * (t - start), 0.5 * (before[1] + after[1]) * (t - start)
+    out[0], out[1] = y[0] + north, y[1] + east
+    out[TRACK] = y[TRACK] + math.sqrt(north * north + east * east)

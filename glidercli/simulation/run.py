@@ -155,13 +155,14 @@ def simulate(
     _check_samples(wanted.duration, every)
     if latitude is None:
         latitude = plan[0].latitude if plan else wanted.place[0] if wanted.place else None
-    ocean = _ocean(Ocean, p.rho_0, p.T_0, ctd, adcp, latitude)
+    ocean = _ocean(Ocean, p.rho_0, p.T_0, ctd, adcp, latitude, wanted.start_ns)
     remade = [*ocean.reconstructed, *wanted.reconstructed]
     flight, log = _flown(
         wanted, ocean, p, craft, _metadata(plan[0] if plan else None, craft, equations, remade), every=every,
         rtol=rtol, full=equations == "full", piece=piece, progress=progress, file=plan[1] if plan else None,
     )  # fmt: skip
-    warnings = [*ocean.warnings, *wanted.warnings, *_warnings(flight, craft, wanted), *ocean.beyond(*flight.depths)]
+    left = ocean.beyond(*flight.depths, float(flight.times[-1]))
+    warnings = [*ocean.warnings, *wanted.warnings, *_warnings(flight, craft, wanted), *left]
     if ocean.stratified and not ocean.has_temperature and p.chi > 0.0:
         warnings.append("the water has no temperature: thermal expansion of the hull is left out")
     return Simulation(
@@ -239,14 +240,22 @@ def _vehicle_of(plan: tuple[Mission, Path] | None) -> str:
     return str(path.parent / mission.vehicle) if mission.vehicle.endswith(".toml") else mission.vehicle
 
 
-def _ocean(kind: type[Ocean], density: float, temperature: float, ctd: Any, adcp: Any, latitude: float | None) -> Ocean:
+def _ocean(
+    kind: type[Ocean], density: float, temperature: float, ctd: Any, adcp: Any, latitude: float | None,
+    start_ns: int | None,
+) -> Ocean:  # fmt: skip
     """The water of a flight: uniform without a cast, else TEOS-10 density from it; and the current."""
-    from glidercli.ocean.cast import read_ctd
-    from glidercli.ocean.current import read_adcp
+    from glidercli.ocean.cast import read_casts
+    from glidercli.ocean.current import read_currents
 
-    cast = read_ctd(Path(ctd), latitude) if ctd else None
-    current = read_adcp(Path(adcp)) if adcp else None
-    return kind.build(density, cast=cast, current=current, latitude=latitude, temperature_reference=temperature)
+    return kind.build(
+        density,
+        casts=read_casts(ctd, latitude) if ctd else (),
+        currents=read_currents(adcp) if adcp else (),
+        latitude=latitude,
+        temperature_reference=temperature,
+        start_ns=start_ns,
+    )
 
 
 def _metadata(plan: Mission | None, craft: Vehicle, equations: str, remade: list[Path]) -> dict[str, str]:

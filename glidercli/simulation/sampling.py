@@ -36,12 +36,12 @@ def record(row: Array, y: Array, c: Controls) -> None:
 
 
 @kernel
-def observe(rows: Array, sea: Sea, p: Parameters, full: bool, out: Array) -> None:
-    """Fill ``out`` (n, len(COLUMNS)) with what rows (n, ROW_WIDTH) of states and controls mean: velocities, water."""
+def observe(times: Array, rows: Array, sea: Sea, p: Parameters, full: bool, out: Array) -> None:
+    """Fill ``out`` (n, len(COLUMNS)) with what rows (n, ROW_WIDTH) of states and controls at times (n,), s, mean."""
     for i in range(len(rows)):
         y = rows[i]
         c = Controls(y[SIZE], y[SIZE + 1], y[SIZE + 2], y[SIZE + 3], y[SIZE + 4])
-        water = at_depth(sea, y[2])
+        water = at_depth(sea, y[2], times[i])
         s = state_of(y)
         V, Omega = velocity(s.P, s.Pi, placement(c, p, full), water.density / p.rho_ref, p)
         out[i, 0], out[i, 1], out[i, 2] = s.position

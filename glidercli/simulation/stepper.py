@@ -94,7 +94,7 @@ def slope_into(k: Array, i: int, t: float, y: Array, segment: Segment, sea: Sea,
     at = segment.at
     if segment.moving:
         at = placement(controls_at(segment, t), p, full)
-    water = at_depth(sea, y[2])
+    water = at_depth(sea, y[2], t)
     r = rates(state_of(y), at, water, p, full)
     k[i, 0], k[i, 1], k[i, 2] = r.position
     k[i, 3], k[i, 4], k[i, 5], k[i, 6] = r.q_wxyz

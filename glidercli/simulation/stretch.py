@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from glidercli.frames import Vector, dot
 from glidercli.kernel import kernel
 from glidercli.model.parameters import Parameters
-from glidercli.ocean.water import Sea, at_depth
+from glidercli.ocean.water import Sea, at_depth, next_change
 from glidercli.simulation.actuators import Drives
 from glidercli.simulation.autopilot import Order
 from glidercli.simulation.holding import drift, held_until, rest
@@ -166,12 +166,12 @@ def fly_stretch(
     until = min(until, ends.time)
     left, thrown_back = -1.0, False
     while m[T] < until:
-        water = at_depth(sea, y[2])
+        water = at_depth(sea, y[2], m[T])
         if len(times_) > 0:
             segment, stop = tabled(times_, values, m, p, full)
         else:
             segment, stop = steered(y, m, order, drives, water, p, full, log)
-        stop = min(stop, until)
+        stop = min(stop, until, next_change(sea, m[T]))
         if m[HELD] != FREE:
             if m[RESTED] == 0.0:
                 rest(y, controls_at(segment, m[T]), water, p, m[HELD] == AT_SURFACE)

@@ -23,13 +23,14 @@ from glidercli.simulation.start import Start
 
 
 def sea(depth: list[float] | None = None, east: list[float] | None = None, north: list[float] | None = None) -> Sea:
-    current = None
+    currents = []
     if depth is not None and east is not None and north is not None:
         zeros = np.zeros(len(depth))
-        current = CurrentProfile(
+        profile = CurrentProfile(
             np.array(depth), np.array(east), np.array(north), zeros, Path("test"), dropped=(), warnings=()
         )
-    ocean = Ocean.build(1025.0, current=current, temperature_reference=15.0)
+        currents = [profile]
+    ocean = Ocean.build(1025.0, currents=currents, temperature_reference=15.0)
     return ocean.sea
 
 
@@ -63,7 +64,7 @@ def test_a_trim_makes_the_right_hand_side_vanish(p: Parameters, full: bool) -> N
     Omega = scale(t.yaw_rate, down_in_body(t.roll, t.pitch))
     P, Pi = momentum(V, Omega, c, 1.0, p)
     state = State((0.0, 0.0, 10.0), quaternion_from_euler(t.roll, t.pitch, 1.0), P, Pi)
-    r = rates(state, placement(c, p, full), at_depth(STILL, 10.0), p, full)
+    r = rates(state, placement(c, p, full), at_depth(STILL, 10.0, 0.0), p, full)
     assert max(map(abs, (*r.P, *r.Pi))) < 1e-9  # the solver stops at 1e-10 N or N m
 
 

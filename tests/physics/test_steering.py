@@ -194,6 +194,6 @@ def test_a_motor_settles_however_late_it_is(p: Parameters) -> None:
         m = new_memory((NEUTRAL, 0.0, 0.0), 0.0)
         m[T] = 5e7 + command / 3.0
         order = NO_ORDER._replace(mass_position=NEUTRAL, mass_rotation=float(command))
-        segment, stop = steered(y, m, order, DRIVES, at_depth(STILL, 0.0), p, True, np.zeros((4, 3)))
+        segment, stop = steered(y, m, order, DRIVES, at_depth(STILL, 0.0, 0.0), p, True, np.zeros((4, 3)))
         move_actuators(m, segment, stop, p)
         assert m[GAMMA] == m[COMMAND_GAMMA] == command

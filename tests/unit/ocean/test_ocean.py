@@ -50,14 +50,14 @@ def test_the_cast_comes_back_at_its_own_depths(ctd):
 
 
 def test_current_becomes_north_east_down(sheared):
-    water = Ocean.build(1025.0, current=sheared).at(15.0)
+    water = Ocean.build(1025.0, currents=sheared).at(15.0)
     assert water.current == pytest.approx((0.4, 0.15, -0.015), abs=ROUND_OFF)
     assert water.shear == pytest.approx((-0.02, 0.01, -0.001), abs=ROUND_OFF)
     assert water.density == 1025.0
 
 
 def test_beyond_the_current_profile_it_is_held(sheared):
-    ocean = Ocean.build(1025.0, current=sheared)
+    ocean = Ocean.build(1025.0, currents=sheared)
     assert ocean.at(0.0).current == pytest.approx((0.5, 0.1, -0.01), abs=ROUND_OFF)
     assert ocean.at(99.0).current == pytest.approx((0.1, 0.3, -0.03), abs=ROUND_OFF)
     assert ocean.at(99.0).shear == (0.0, 0.0, 0.0)
@@ -91,7 +91,7 @@ def test_compiled_and_plain_agree(ctd, sheared):
     ocean = Ocean.build(1025.0, read_ctd(ctd / "CTD_with_sigma_e00.cnv"), sheared)
     fast = compiled(at_depth)
     for z in (0.0, 10.0, 15.3, 199.0, 500.0):
-        plain, quick = ocean.at(z), fast(ocean.sea, z)
+        plain, quick = ocean.at(z), fast(ocean.sea, z, 0.0)
         assert quick[:3] == pytest.approx(plain[:3], rel=ROUND_OFF)
         assert quick.current == pytest.approx(plain.current, abs=ROUND_OFF)
         assert quick.shear == pytest.approx(plain.shear, abs=ROUND_OFF)

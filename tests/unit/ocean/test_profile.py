@@ -14,7 +14,7 @@ ROUND_OFF = 1e-12  # a few operations in double precision on values of order ten
 
 @kernel
 def value_and_slope(profile: Profile, z: float, column: int) -> tuple[float, float]:
-    interval, x, beyond = locate(profile, z)
+    interval, x, beyond = locate(profile, 0, z)
     return cubic(profile, interval, x, column), 0.0 if beyond else cubic_slope(profile, interval, x, column)
 
 
