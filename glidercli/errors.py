@@ -4,14 +4,15 @@
     ├── InputError              a file or a number that cannot be used: file, what, where, what is allowed
     ├── OutputError             an output that cannot be written
     ├── NoSolutionError         a question that has no answer: the nearest point and what fails there
-    └── UsageError              exit 2: options that do not make a question: missing, contradictory, an unknown choice
+    ├── UsageError              exit 2: options that do not make a question: missing, contradictory, an unknown choice
+    └── Interrupted             exit 130: somebody pressed Ctrl-C; how far it came
 
 Solvers report their outcome as data; exceptions are for input that cannot be used and questions without an answer.
 """
 
 from __future__ import annotations
 
-__all__ = ["GliderError", "InputError", "NoSolutionError", "OutputError", "UsageError"]
+__all__ = ["GliderError", "InputError", "Interrupted", "NoSolutionError", "OutputError", "UsageError"]
 
 
 class GliderError(Exception):
@@ -46,3 +47,9 @@ class UsageError(GliderError):
     """Options that do not make a question; the message says what would."""
 
     exit_code = 2
+
+
+class Interrupted(GliderError):
+    """Interrupted from the keyboard; the message says how far it came and what became of the outputs."""
+
+    exit_code = 130

@@ -56,8 +56,8 @@ class Sink:
 
     @property
     def piece(self) -> Callable[[Log], None] | None:
-        """What takes the log in pieces; None where something needs the whole of it."""
-        if self._pictures or self._stdout or not self._files or not self._saving.takes_pieces:
+        """What takes the log in pieces, if only to forget them; None where something needs the whole of it."""
+        if self._pictures or self._stdout or not self._saving.takes_pieces:
             return None
         return self._saving.add
 
@@ -67,7 +67,8 @@ class Sink:
 
         if self.piece is None:
             self._saving.add(log)
-        self._saving.close(log)
+        if self._files:
+            self._saving.close(log)
         for part in self._pictures:
             from glidercli.pictures import save
             from glidercli.simulation.figure import draw_flight

@@ -54,11 +54,13 @@ def simulate(
     """Full dynamics through measured water and current: a mission, held controls, or recorded ones."""
     from glidercli.cli.logs_in import read_logs
     from glidercli.cli.outputs import check_log_outputs, log_sink
-    from glidercli.cli.printing import json_text, warn
+    from glidercli.cli.printing import json_text, say, warn
     from glidercli.cli.progress import progress
+    from glidercli.kernel import ready
     from glidercli.provenance import provenance_json
     from glidercli.simulation import simulate as fly
     from glidercli.simulation.start import read_trim
+    from glidercli.simulation.stretch import fly_stretch
 
     cast, current = _one("--ctd", ctd), _one("--adcp", adcp)
     outputs = output or []
@@ -66,7 +68,9 @@ def simulate(
     logs = read_logs({"controls": controls, "initial": initial})
     first = None if trim is None else read_trim(trim)
     files = [*logs.files, *([trim] if trim and str(trim) != "-" else [])]
-    with progress("flying", quiet) as told, log_sink(outputs, force) as sink:
+    if not ready(fly_stretch):
+        say("compiling the flight model, once on this machine: some 12 s", quiet)
+    with progress("the flight", "s", quiet) as told, log_sink(outputs, force) as sink:
         flown = fly(
             mission,
             vehicle=vehicle,

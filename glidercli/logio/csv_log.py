@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -40,6 +41,9 @@ class CsvTable:
 
     def add(self, log: Log) -> None:
         """Append a piece; all have the same channels."""
+        import pyarrow as pa
+        from pyarrow import csv as csv_of_arrow  # ten times as fast as pandas
+
         first = self._zero_ns is None
         if first and any(map(len, log.channels.values())):
             self._zero_ns = log.start_ns
@@ -47,7 +51,12 @@ class CsvTable:
         table["time_utc"] = np.datetime_as_string(table["time_utc"].to_numpy(), unit="ns")
         table["time_utc"] += "Z"
         table["origin"] = origin_word(log.origin, log.metadata, {c.origin for c in log.channels.values()})
-        table.to_csv(self._stream, index=False, header=first, lineterminator="\n")
+        if first:
+            self._stream.write(",".join(table.columns) + "\n")
+        options = csv_of_arrow.WriteOptions(include_header=False, quoting_style="none")
+        rows = io.BytesIO()
+        csv_of_arrow.write_csv(pa.Table.from_pandas(table, preserve_index=False), rows, options)
+        self._stream.write(rows.getvalue().decode())
 
     def close(self, metadata: Mapping[str, Any]) -> None:
         """Finish; the metadata stand beside the table, not in it."""

@@ -23,6 +23,7 @@ __all__ = ["NetcdfTable"]
 _AXES = {"latitude": ("degrees_north", "Y"), "longitude": ("degrees_east", "X")}
 _FILL = 9.969209968386869e36  # NetCDF's own for doubles: no channel comes near it
 _CHUNK = 16384  # samples
+_CACHE = 8 * 8 * _CHUNK  # bytes for a variable; the library's own grow to 64 MB each
 
 
 class NetcdfTable:
@@ -95,6 +96,7 @@ class NetcdfTable:
                 "units": f"seconds since {np.datetime64(second, 's')}Z",
             }
         )  # fmt: skip
+        time.set_var_chunk_cache(size=_CACHE, nelems=101)
         if has_place:
             file.featureType = "trajectory"
             file.createDimension("name_length", 8)
@@ -110,6 +112,7 @@ class NetcdfTable:
             else:
                 variable = file.createVariable(name, "f8", ("time",), fill_value=_FILL, **chunks)
                 variable.units = _AXES[name][0] if name in _AXES else _units(spec.unit)
+            variable.set_var_chunk_cache(size=_CACHE, nelems=101)
             variable.long_name = spec.meaning
             variable.comment = f"{channel.origin}"
             if spec.cf_name:

@@ -62,6 +62,7 @@ __all__ = ["Excursion", "Flight", "FlightEvent", "Tallies", "fly"]
 Array = NDArray[np.float64]
 
 STRETCH = 600.0  # s; steps end at its multiples, so that a flight is the same however it is looked at
+MOST_SAMPLES = 10_000_000  # some 5 GB of log
 LONGEST_LEG = 5 * 86400.0  # s; at 0.1 m/s the deepest trench is 30 hours away
 _MOST_EVENTS = 1000  # in a stretch
 _LOOKS = 500  # depths at which the net buoyancy of a leg is looked at
@@ -219,6 +220,10 @@ def fly(
                     f"leg {leg.name}",
                     f"has not ended {LONGEST_LEG / 86400:g} days after it began, at {y[2]:.1f} m; needed is an end "
                     "that it comes to, or duration_s",
+                )
+            if m[ROW] > MOST_SAMPLES:
+                raise InputError(
+                    "every", f"{every:g} s gives more than {MOST_SAMPLES:.0e} samples by {m[T]:.0f} s, the most allowed"
                 )
             times.append(every * np.arange(first, int(m[ROW]), dtype=np.float64))
             rows.append(out[: int(m[ROW]) - first])

@@ -24,7 +24,6 @@ __all__ = ["Simulation", "simulate"]
 
 RTOL = (1e-13, 1e-3)  # rounding; at 1e-3 an hour's spiral ends 4 cm, the shipped trial 1 cm from the exact one
 DEEPEST = 12000.0  # m; the deepest trench has 10,935
-MOST_SAMPLES = 10_000_000  # some 5 GB of log
 
 
 @dataclasses.dataclass(frozen=True)
@@ -226,6 +225,8 @@ def _check_numbers(duration: float | None, start_depth: float | None, every: flo
 
 
 def _check_samples(length: float, every: float) -> None:
+    from glidercli.simulation.flight import MOST_SAMPLES
+
     if math.isfinite(length) and length / every > MOST_SAMPLES:
         raise InputError(
             "duration, every",

@@ -55,8 +55,8 @@ def test_the_first_line_is_the_column_names() -> None:
     CsvTable(stream).add(log)
     assert stream.getvalue().splitlines() == [
         "time_utc,elapsed_s,pitch_deg,origin",
-        "1970-01-01T00:00:00.000000000Z,0.0,0.0,measured",
-        "1970-01-01T00:00:01.000000000Z,1.0,180.0,measured",
+        "1970-01-01T00:00:00.000000000Z,0,0,measured",
+        "1970-01-01T00:00:01.000000000Z,1,180,measured",
     ]
 
 
