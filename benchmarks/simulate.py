@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from glidercli.model import parameters
+from glidercli.model import Parameters, parameters
 from glidercli.ocean import Ocean, Sea
 from glidercli.ocean.current import CurrentProfile
 from glidercli.ocean.profile import pchip
@@ -37,7 +37,8 @@ def half_yos() -> list[Leg]:
     return legs
 
 
-def main() -> None:
+def case() -> tuple[Parameters, Sea]:
+    """The vehicle and the sea of the benchmark."""
     p = parameters(load_vehicle("seawing"))._replace(rho_0=1026.0, kappa=4e-10)
     depth = np.linspace(0.0, 800.0, 60)
     wobble = np.random.default_rng(1).normal(scale=0.03, size=(2, 60))
@@ -45,9 +46,13 @@ def main() -> None:
     current = CurrentProfile(depth, east, north, np.zeros(60), Path("made"), dropped=(), warnings=())
     levels = np.linspace(0.0, 1000.0, 101)
     density = 1024.0 + 3.0 * np.tanh(levels / 150.0) + 0.0045 * levels
-    still = Ocean.build(1026.0, current=current, temperature_reference=15.0)
+    still = Ocean.build(1026.0, currents=current, temperature_reference=15.0)
     water = pchip(levels, np.column_stack([density, levels * DBAR, np.full(101, 15.0)]))
-    sea = Sea(water, still.current, still.gravity)
+    return p, Sea(water, still.current, still.gravity)
+
+
+def main() -> None:
+    p, sea = case()
 
     def flown(rtol: float) -> Flight:
         return fly(half_yos(), sea, p, duration=DURATION, rtol=rtol)
