@@ -69,7 +69,7 @@ def simulate(
     first = None if trim is None else read_trim(trim)
     files = [*logs.files, *([trim] if trim and str(trim) != "-" else [])]
     if not ready(fly_stretch):
-        say("compiling the flight model, once on this machine: some 12 s", quiet)
+        say("compiling the flight model, once on this machine: some 15 s", quiet)
     with progress("the flight", "s", quiet) as told, log_sink(outputs, force) as sink:
         flown = fly(
             mission,

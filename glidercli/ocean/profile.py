@@ -9,7 +9,7 @@ last.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -70,10 +70,39 @@ def pchip(depth: ArrayLike, values: ArrayLike) -> Profile:
     coefficients[:, :, ~known] = np.nan
     coefficients[3, -1] = y[-1]
     if len(z) > 1:
-        from scipy.interpolate import PchipInterpolator
-
-        coefficients[:, :-1, known] = PchipInterpolator(z, y[:, known]).c
+        coefficients[:, :-1, known] = _cubics(z, y[:, known])
     return Profile(z, coefficients, np.zeros(1), np.array([0, len(z)]))
+
+
+def _cubics(z: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Coefficients (4, n - 1, k) of the monotone cubics through samples y (n, k) at z (n,).
+
+    Slopes by Fritsch and Butland (1984, SIAM J. Sci. Stat. Comput. 5, 300-304): the weighted harmonic mean of the two
+    secants where they agree in sign, else zero; at the ends by three points, kept monotone (Moler 2004, Numerical
+    Computing with MATLAB, section 3.6).
+    """
+    h = np.diff(z)[:, np.newaxis]
+    secant = np.diff(y, axis=0) / h
+    slope = np.zeros_like(y)
+    if len(z) == 2:
+        slope[:] = secant
+    else:
+        before, after = secant[:-1], secant[1:]
+        w1, w2 = 2.0 * h[1:] + h[:-1], h[1:] + 2.0 * h[:-1]
+        agree = before * after > 0.0
+        a, b = np.where(agree, before, 1.0), np.where(agree, after, 1.0)
+        slope[1:-1] = np.where(agree, (w1 + w2) / (w1 / a + w2 / b), 0.0)
+        slope[0] = _end_slope(h[0], h[1], secant[0], secant[1])
+        slope[-1] = _end_slope(h[-1], h[-2], secant[-1], secant[-2])
+    bend = (slope[:-1] + slope[1:] - 2.0 * secant) / h
+    return np.stack([bend / h, (secant - slope[:-1]) / h - bend, slope[:-1], y[:-1]])
+
+
+def _end_slope(h0: Any, h1: Any, first: Any, second: Any) -> Any:
+    """Slope at an end from three points, (k,): h0, first the interval and secant there, h1, second the next."""
+    slope = ((2.0 * h0 + h1) * first - h0 * second) / (h0 + h1)
+    slope = np.where(slope * first <= 0.0, 0.0, slope)
+    return np.where((first * second <= 0.0) & (np.abs(slope) > 3.0 * np.abs(first)), 3.0 * first, slope)
 
 
 def in_time(times: ArrayLike, profiles: Sequence[Profile]) -> Profile:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.interpolate import PchipInterpolator
 
 from glidercli.errors import InputError
 from glidercli.kernel import compiled, kernel
@@ -125,3 +126,13 @@ def test_compiled_and_plain_agree():
 def test_what_is_no_profile_is_refused(depth, values):
     with pytest.raises(InputError, match="profile: "):
         pchip(depth, values)
+
+
+@pytest.mark.parametrize("n", [2, 3, 4, 60])
+def test_the_cubics_are_those_of_scipy(n):
+    rng = np.random.default_rng(n)
+    for _ in range(20):
+        depth = np.cumsum(rng.uniform(0.5, 20.0, n))
+        values = np.round(rng.normal(size=(n, 3)), 1)  # equal neighbours, too
+        ours = pchip(depth, values).coefficients[:, :-1]
+        np.testing.assert_allclose(ours, PchipInterpolator(depth, values).c, atol=1e-12)  # rounding
