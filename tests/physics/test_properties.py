@@ -7,12 +7,14 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from glidercli.frames import dot, rotation_ned_body
 from glidercli.model import Parameters
 from glidercli.model.mass import first_moment, momentum, movable_position
 from glidercli.model.parameters import Controls
-from glidercli.ocean import Ocean
+from glidercli.ocean import Ocean, Sea
+from glidercli.ocean.profile import pchip
 from glidercli.simulation.flight import Flight, fly, scales_of
 from glidercli.simulation.legs import Leg, held
 from glidercli.simulation.start import Start
@@ -124,3 +126,25 @@ def test_an_error_that_is_not_a_number_refuses_the_step(p: Parameters) -> None:
     k = np.zeros((7, WIDTH))
     k[3, 8] = math.nan
     assert error_norm(np.zeros(SIZE), np.zeros(SIZE), 0.1, k, 1e-6, scales_of(p)) == math.inf
+
+
+@pytest.mark.parametrize("kappa", [0.0, 4e-10, -1.0])
+def test_the_dive_ends_where_the_vehicle_is_neutral(p: Parameters, kappa: float) -> None:
+    """ "Before it became neutrally buoyant": the trial's own limit, here where the formula of the buoyancy says.
+
+    Water 0.9 % denser at 1000 m, half a degree colder for every 50 m; kappa per Pa, or thermal expansion where -1.
+    """
+    hull = p._replace(rho_0=1022.0, kappa=max(kappa, 0.0), chi=6e-5 if kappa < 0.0 else 0.0)
+    depth = np.linspace(0.0, 3000.0, 31)
+    density, pressure, temperature = 1022.0 * (1.0 + 9e-6 * depth), 1e4 * depth, 25.0 - depth / 100.0
+    sea = Sea(pchip(depth, np.column_stack([density, pressure, temperature])), STILL.current, 9.81)
+
+    def excess(z: float) -> float:
+        ratio = 1.0 + 9e-6 * z
+        volume = 1.0 - hull.kappa * 1e4 * z + hull.chi * (25.0 - z / 100.0 - hull.T_0)
+        return 65.28 * (1.0 - ratio * volume) + 0.5 * ratio
+
+    neutral = brentq(excess, 0.0, 3000.0)
+    flight = fly([held(0.4216, 0.0, 0.5)], sea, hull, duration=40000.0, every=100.0)
+    assert flight.column("down")[-1] == pytest.approx(neutral, abs=1.0)  # it still swings by some cm
+    assert abs(flight.excess) < 1e-3
