@@ -44,6 +44,7 @@ bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/startup.py
 	$(BIN)/python benchmarks/trims.py
 	$(BIN)/python benchmarks/simulate.py
+	$(BIN)/python benchmarks/peers.py
 	$(BIN)/python benchmarks/agreement.py
 
 clean:
