@@ -207,6 +207,7 @@ def fly(
             _check_reach(leg.name, order, drives, float(y[2]), float(m[T]), leg.until_depth, sea, p)
         run(y, m, -math.inf, *given, np.empty((0, ROW_WIDTH)), *common)  # compiles, if it must
         there = (leg.goes == "down" and y[2] >= ends.floor) or (leg.goes == "up" and y[2] <= ends.ceiling)
+        there = there or (leg.steered and y[2] == leg.until_depth)
         status, apogee, began_at = AT_DEPTH if there else GOING_ON, None, float(y[2])
         while status == GOING_ON:
             out = np.empty((int(STRETCH / every) + 2, ROW_WIDTH))

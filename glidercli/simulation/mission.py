@@ -48,12 +48,12 @@ MOST_LEGS = 100_000
 
 def _number(least: float, most: float) -> Any:
     """The range of a number, both ends allowed."""
-    return Field(ge=least, le=most, allow_inf_nan=False)
+    return Field(ge=least, le=most, allow_inf_nan=False, strict=True)
 
 
 def _positive(most: float) -> Any:
     """A range that begins above zero."""
-    return Field(gt=0.0, le=most, allow_inf_nan=False)
+    return Field(gt=0.0, le=most, allow_inf_nan=False, strict=True)
 
 
 Depth = Annotated[float, _number(0.0, 12000.0)]
@@ -215,7 +215,7 @@ class ControlsLeg:
 class Repeat:
     """Legs flown so many times; they may hold repeats themselves."""
 
-    repeat: Annotated[int, Field(ge=1, le=MOST_LEGS)]
+    repeat: Annotated[int, Field(ge=1, le=MOST_LEGS, strict=True)]
     leg: tuple[MissionLeg, ...]
 
 
@@ -296,30 +296,40 @@ class Mission:
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        faults = [] if next(flat(self.leg, 1), None) else ["leg = [], at least one is needed"]
-        if self.bottom_m is None and any(getattr(leg, "until_altitude_m", None) is not None for leg in flat(self.leg)):
+        faults = [] if _count(self.leg) else ["leg = [], at least one is needed"]
+        if self.bottom_m is None and any(getattr(leg, "until_altitude_m", None) is not None for leg in _once(self.leg)):
             faults.append("until_altitude_m needs bottom_m, the depth of the bottom")
         if self.bottom_m is not None and self.start_depth_m >= self.bottom_m:
             faults.append(f"start_depth_m = {self.start_depth_m:g}, allowed less than bottom_m = {self.bottom_m:g}")
         last = self.leg[-1] if self.leg else None
         if self.duration_s is None and isinstance(last, ControlsLeg) and last.until_depth_m is None:
             faults.append(f"leg {len(self.leg)} (controls) is the last and cannot end; needed is duration_s")
-        if sum(1 for _ in flat(self.leg, MOST_LEGS + 1)) > MOST_LEGS:
+        if _count(self.leg) > MOST_LEGS:
             faults.append(f"repeats make more than {MOST_LEGS} legs, the most allowed")
         if faults:
             raise ValueError("; ".join(faults))
         return self
 
 
-def flat(legs: tuple[Any, ...], most: int = MOST_LEGS) -> Iterator[Any]:
-    """The legs one after the other, repeats unrolled, ``most`` of them at most."""
+def flat(legs: tuple[Any, ...]) -> Iterator[Any]:
+    """The legs one after the other, repeats unrolled."""
     for leg in legs:
-        inner = (one for _ in range(leg.repeat) for one in flat(leg.leg, most)) if isinstance(leg, Repeat) else (leg,)
-        for one in inner:
-            if most == 0:
-                return
-            most -= 1
-            yield one
+        if isinstance(leg, Repeat):
+            for _ in range(leg.repeat):
+                yield from flat(leg.leg)
+        else:
+            yield leg
+
+
+def _count(legs: tuple[Any, ...]) -> int:
+    """How many legs there are with repeats unrolled."""
+    return sum(leg.repeat * _count(leg.leg) if isinstance(leg, Repeat) else 1 for leg in legs)
+
+
+def _once(legs: tuple[Any, ...]) -> Iterator[Any]:
+    """Every leg as it stands in the file."""
+    for leg in legs:
+        yield from _once(leg.leg) if isinstance(leg, Repeat) else (leg,)
 
 
 def _one_way(leg: Targets, sign: float) -> list[str]:
@@ -368,6 +378,8 @@ def _fault(item: Any) -> str:
         what = f"{key} is unknown"
     elif item["type"] == "value_error":
         what = " ".join(part for part in (key, str(item["ctx"]["error"])) if part)
+    elif item["type"] == "tuple_type":
+        what = f"{key} is no list of tables; write [[{key}]] above each"
     elif item["type"].startswith("union_tag"):
         said = item["input"].get("kind") if isinstance(item["input"], dict) else item["input"]
         what = (
