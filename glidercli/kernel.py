@@ -24,6 +24,7 @@ _OPTIONS = {"forceinline": True, "error_model": "numpy"}
 """Calls of small functions on tuples cost more than what they do: inlined, the right-hand side takes half the time. No
 check for division by zero: what divides sees to it, and plain code, which does check, runs the same source."""
 
+_told_of_compiling: list[Callable[[str], None]] = []
 _marked: list[Callable[..., Any]] = []
 _replaced: list[tuple[Callable[..., Any], Callable[..., Any]]] = []
 
@@ -107,7 +108,15 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     All modules with kernels that the entry point reaches must have been imported, which its own imports see to.
     """
     numba, cached = _numba()
+    if not ready(function):
+        for tell in _told_of_compiling:
+            tell(function.__name__)
     return numba.njit(cache=cached, nogil=True, **_OPTIONS)(function)  # type: ignore[no-any-return]
+
+
+def tell_of_compiling(tell: Callable[[str], None]) -> None:
+    """Have a function called with the name of every entry point that is about to be compiled, which takes seconds."""
+    _told_of_compiling.append(tell)
 
 
 def ready(function: Callable[..., Any]) -> bool:

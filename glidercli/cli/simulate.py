@@ -54,13 +54,12 @@ def simulate(
     """Full dynamics through measured water and current: a mission, held controls, or recorded ones."""
     from glidercli.cli.logs_in import read_logs
     from glidercli.cli.outputs import check_log_outputs, log_sink
-    from glidercli.cli.printing import json_text, say, warn
+    from glidercli.cli.printing import json_text, warn
     from glidercli.cli.progress import progress
-    from glidercli.kernel import ready
+    from glidercli.kernel import tell_of_compiling
     from glidercli.provenance import provenance_json
     from glidercli.simulation import simulate as fly
     from glidercli.simulation.start import read_trim
-    from glidercli.simulation.stretch import fly_stretch
 
     cast, current = _one("--ctd", ctd), _one("--adcp", adcp)
     outputs = output or []
@@ -68,8 +67,7 @@ def simulate(
     logs = read_logs({"controls": controls, "initial": initial})
     first = None if trim is None else read_trim(trim)
     files = [*logs.files, *([trim] if trim and str(trim) != "-" else [])]
-    if not ready(fly_stretch):
-        say("compiling the flight model, once on this machine: some 15 s", quiet)
+    tell_of_compiling(lambda name: _say_compiling(name, quiet))
     with progress("the flight", "s", quiet) as told, log_sink(outputs, force) as sink:
         flown = fly(
             mission,
@@ -102,6 +100,14 @@ def simulate(
         print(json_text(flown.document()))
     elif Path("-") not in outputs:
         print(_summary(flown.document()))
+
+
+def _say_compiling(name: str, quiet: bool) -> None:
+    """Say that the integrator is compiled; what else is takes a second."""
+    from glidercli.cli.printing import say
+
+    if name == "fly_stretch":
+        say("compiling the flight model, once on this machine: some 15 s", quiet)
 
 
 def _one(option: str, files: list[Path] | None) -> Path | None:

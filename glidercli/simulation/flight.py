@@ -181,9 +181,9 @@ def fly(
         The step size fell below its limit: the motion cannot be integrated.
     """
     duration, rtol, every = float(duration), float(rtol), float(every)  # one signature, compiled once
+    y, m = _begin(start, controls or _first_controls(legs[0]), sea, p, floats)
     run: Any = fly_stretch if plain else compiled(fly_stretch)
     look: Any = observe if plain else compiled(observe)
-    y, m = _begin(start, controls or _first_controls(legs[0]), sea, p, floats)
     reached, log = range_of_none(float(start.depth), float(fitted_angle)), np.zeros((_MOST_EVENTS, 3))
     common = (rtol, scales_of(p), reached, log)
     events: list[FlightEvent] = []
