@@ -31,5 +31,5 @@ def read_logs(wanted: Mapping[str, str | None]) -> LogsIn:
     reports = [report for reading in readings.values() for report in reading.files]
     warnings = [f"{report.path}: {line}" for report in reports for line in report.warnings]
     warnings += [f"{report.path}: {report.error}" for report in reports if report.error]
-    logs = {option: readings[path].log for option, path in given.items()}
+    logs = {option: readings[path].log.with_metadata(source=path) for option, path in given.items()}
     return LogsIn(logs, [report.path for report in reports if not report.error], warnings)

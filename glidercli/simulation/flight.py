@@ -203,11 +203,11 @@ def fly(
         commands = (order.mass_position, order.mass_rotation, order.net_buoyancy) if leg.steered else math.nan
         m[COMMAND_RRX : COMMAND_MB + 1] = commands
         given = (order, drives, leg.times, leg.values, ends, sea, p, full, every)
-        if leg.steered and np.isnan(leg.until_altitude) and math.isinf(min(leg.duration, leg.turns)):
-            _check_reach(leg.name, order, drives, float(y[2]), float(m[T]), leg.until_depth, sea, p)
-        run(y, m, -math.inf, *given, np.empty((0, ROW_WIDTH)), *common)  # compiles, if it must
         there = (leg.goes == "down" and y[2] >= ends.floor) or (leg.goes == "up" and y[2] <= ends.ceiling)
         there = there or (leg.steered and y[2] == leg.until_depth)
+        if not there and leg.steered and np.isnan(leg.until_altitude) and math.isinf(min(leg.duration, leg.turns)):
+            _check_reach(leg.name, order, drives, float(y[2]), float(m[T]), leg.until_depth, sea, p)
+        run(y, m, -math.inf, *given, np.empty((0, ROW_WIDTH)), *common)  # compiles, if it must
         status, apogee, began_at = AT_DEPTH if there else GOING_ON, None, float(y[2])
         while status == GOING_ON:
             out = np.empty((int(STRETCH / every) + 2, ROW_WIDTH))

@@ -16,7 +16,7 @@ from glidercli.simulation.settling import Settled
 from glidercli.simulation.start import Start
 from glidercli.vehicle.vehicle import Vehicle
 
-__all__ = ["controls_of", "place_of", "start_of"]
+__all__ = ["controls_of", "place_of", "source_of", "start_of"]
 
 _PLAUSIBLE = {"pitch": math.radians(80.0), "roll": math.radians(80.0), "speed_through_water": 1.5}
 """Largest magnitudes of a recorded attitude (rad) and speed (m/s) that a flight is started from: gliders fly within
@@ -25,6 +25,11 @@ _NEAR = 60.0  # s; how far from the first depth another channel may be, ten of t
 _LONG_GAP = 600.0  # s without a sample of an actuator that are worth a word: motors move every few minutes
 
 CONTROLS = ("mass_position", "mass_rotation", "net_buoyancy")
+
+
+def source_of(log: Log) -> str:
+    """What an error calls a log: the file that it came from, if that is known."""
+    return log.metadata.get("source", "log")
 
 
 def controls_of(
@@ -53,11 +58,11 @@ def controls_of(
             )
         elif given[name] is None:
             option = f"--{name.replace('_', '-')}"
-            raise InputError("controls", f"the log has no {name}; {option} holds one, or a log with it is needed")
+            raise InputError(source_of(log), f"has no {name}; {option} holds one, or a log with it is needed")
         else:
             held[name] = float(given[name] or 0.0)
     if not tables:
-        raise InputError("controls", f"the log has no actuator channel; needed is one of {', '.join(CONTROLS)}")
+        raise InputError(source_of(log), f"has no actuator channel; needed is one of {', '.join(CONTROLS)}")
     if "mass_position_zero" in log.metadata and "mass_position" in tables:
         nominal = vehicle.actuators.mass_position.nominal
         tables["mass_position"] = (tables["mass_position"][0], tables["mass_position"][1] + nominal)
@@ -92,7 +97,7 @@ def start_of(log: Log, depth: float | None, steady: Settled | None) -> tuple[Sta
     Raises InputError where the log has no depth.
     """
     if "depth" not in log:
-        raise InputError("initial", f"the log has no depth; its channels are {', '.join(log.channels)}")
+        raise InputError(source_of(log), f"has no depth; its channels are {', '.join(log.channels)}")
     at = int(log["depth"].time_ns[0])
     recorded = max(0.0, float(log["depth"].values[0]))
     warnings: list[str] = []

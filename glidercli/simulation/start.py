@@ -50,7 +50,10 @@ def read_trim(path: Path) -> Mapping[str, Any]:
     Raises InputError where that is no such document, or holds no trim.
     """
     said = "-" if str(path) == "-" else str(path)
-    text = sys.stdin.read() if said == "-" else readable_file(path).read_text(encoding="utf-8", errors="replace")
+    if said == "-":
+        text = sys.stdin.read()
+    else:  # a pipe has no size, and is no empty file
+        text = (path if path.is_fifo() else readable_file(path)).read_text(encoding="utf-8", errors="replace")
     wanted = 'needed is what glider trim --json prints, {"trims": [...]}'
     try:
         document = json.loads(text)

@@ -81,7 +81,7 @@ def task(
     if mission:
         made = _of_mission(*mission, craft, p)
     elif controls:
-        made = _of_recording(controls, initial, craft, p, dict(given))
+        made = _of_recording(controls, initial, craft, p, dict(given), duration)
     else:
         made = _of_held(given, trim, craft, duration)
     if trim:
@@ -140,17 +140,25 @@ def _of_held(
 
 
 def _of_recording(
-    controls: Log, initial: Log | None, craft: Vehicle, p: Parameters, given: dict[str, float | None]
+    controls: Log,
+    initial: Log | None,
+    craft: Vehicle,
+    p: Parameters,
+    given: dict[str, float | None],
+    duration: float | None,
 ) -> Task:
-    from glidercli.simulation.recorded import controls_of
+    from glidercli.simulation.recorded import controls_of, source_of
 
     zero = int(initial["depth"].time_ns[0]) if initial is not None and "depth" in initial else None
     leg, zero, warnings = controls_of(controls, zero, craft, p, given)
     for row in leg.values:
         check_controls(craft, *row)
     lasts = float(leg.times[-1])
-    if lasts <= 0.0:
-        raise InputError("controls", f"the last sample comes {-lasts:.1f} s before the start; none is left to fly")
+    if lasts <= 0.0 and duration is None:
+        raise InputError(
+            source_of(controls), f"its last control sample stands at {lasts:.1f} s of the flight, which begins at 0 s; "
+            "--duration says how long to fly"
+        )  # fmt: skip
     dated = "time_note" not in controls.metadata
     return Task(
         legs=[leg], drives=drives_of(craft), start=Start(), controls=_row_at_start(leg), floats=True, duration=lasts,

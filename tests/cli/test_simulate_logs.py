@@ -153,7 +153,7 @@ def test_controls_without_an_actuator(glider: Run, flown: pd.DataFrame, tmp_path
     one_line_error(glider("simulate", "--controls", "a.csv"), "net_buoyancy", "--net-buoyancy")
     assert glider("simulate", "--controls", "a.csv", "--net-buoyancy", "0.3").returncode == 0
     flown[["time_utc", "depth_m"]].to_csv(tmp_path / "b.csv", index=False)
-    one_line_error(glider("simulate", "--controls", "b.csv", *HELD), "no actuator")
+    one_line_error(glider("simulate", "--controls", "b.csv", *HELD), "b.csv", "no actuator")
     flown[["time_utc", "mass_position_m"]].to_csv(tmp_path / "d.csv", index=False)
-    one_line_error(glider("simulate", *HELD, "--initial", "d.csv"), "depth")
+    one_line_error(glider("simulate", *HELD, "--initial", "d.csv"), "d.csv", "depth")
     one_line_error(glider("simulate", "--controls", "none.csv"), "none.csv")
