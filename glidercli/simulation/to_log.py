@@ -58,7 +58,9 @@ def to_log(
         np.clip(np.divide(values["v"], speed, out=np.zeros_like(speed), where=moving), -1, 1)
     )
     sinking = values["vertical_speed"] >= 0.0
-    values["phase"] = np.where(sinking, PHASES.index("dive"), PHASES.index("climb")).astype(float)
+    phase = np.where(sinking, PHASES.index("dive"), PHASES.index("climb"))
+    afloat = (values["depth"] <= 0.0) & ~moving
+    values["phase"] = np.where(afloat, PHASES.index("surface"), phase).astype(float)
     if stratified:
         values["pressure"] = column["pressure"]
     if has_temperature:

@@ -93,6 +93,7 @@ def test_a_drift_goes_with_the_current(glider_json: Callable[..., Any], tmp_path
     )
     assert document["final"]["east_m"] == pytest.approx(500.0, rel=1e-12)
     assert document["final"]["depth_m"] == 0.0
+    assert document["final"]["phase"] == "surface"
 
 
 def test_the_rotation_returns_to_zero_at_times(glider: Run, tmp_path: Path) -> None:
