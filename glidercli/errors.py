@@ -31,6 +31,11 @@ class InputError(GliderError):
     def __init__(self, where: object, what: str) -> None:
         super().__init__(f"{where}: {what}")
 
+    @classmethod
+    def of_all(cls, where: object, faults: list[str]) -> InputError:
+        """One error for every fault of a file, counted if there are several."""
+        return cls(where, (f"{len(faults)} faults: " if len(faults) > 1 else "") + "; ".join(faults))
+
 
 class OutputError(GliderError):
     """An output that cannot be written: it exists, its folder is missing or closed, or its kind is unknown."""

@@ -15,7 +15,7 @@ def vehicles(json: Json = False, quiet: Quiet = False, debug: Debug = False) -> 
 def missions(json: Json = False, quiet: Quiet = False, debug: Debug = False) -> None:
     """List the shipped missions: name, two spaces, description."""
     from glidercli import shipped
-    from glidercli.simulation.mission import load_mission
+    from glidercli.simulation.mission_file import load_mission
 
     _show({name: load_mission(name)[0].description for name in shipped.missions()}, "missions", json)
 

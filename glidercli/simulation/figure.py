@@ -87,13 +87,12 @@ def _widen(axes: Axes, least: float) -> None:
 
 def _mark(axes: Axes, log: Log, unit: float) -> None:
     """Where dives turn and where the vehicle surfaces or grounds."""
-    for names, marker, label in ((("apogee",), "v", "apogee"), (("surfacing",), "^", "surfacing"),
-                                 (("grounding",), "x", "grounding")):  # fmt: skip
-        at = [(event.time_ns - log.start_ns, event.depth) for event in log.events if event.name in names]
+    for name, marker in (("apogee", "v"), ("surfacing", "^"), ("grounding", "x")):
+        at = [(event.time_ns - log.start_ns, event.depth) for event in log.events if event.name == name]
         if at:
             times, depths = zip(*at, strict=True)
             axes.plot(
-                np.array(times) / 1e9 / unit, depths, marker, color="black", markersize=3.5, label=label, linestyle=""
+                np.array(times) / 1e9 / unit, depths, marker, color="black", markersize=3.5, label=name, linestyle=""
             )
     if axes.get_legend_handles_labels()[1]:
         axes.legend(loc="best", frameon=False)
@@ -119,15 +118,14 @@ def _water(axes: Axes, log: Log) -> None:
     depth = log["depth"].values
     axes.invert_yaxis()
     axes.set_ylabel("depth, m")
-    order = np.argsort(depth)
     if "current_east" in log:
         for name, colour in (("current_east", COLOURS[0]), ("current_north", COLOURS[1])):
-            axes.plot(log[name].values[order], depth[order], color=colour, linewidth=0.9, label=name[8:])
+            axes.plot(log[name].values, depth, color=colour, linewidth=0.9, label=name[8:])
         axes.set_xlabel("current, m/s")
         axes.set_title("current met")
         axes.legend(loc="best", frameon=False)
     elif "pressure" in log:
-        axes.plot(log["density"].values[order], depth[order], color=COLOURS[2], linewidth=0.9)
+        axes.plot(log["density"].values, depth, color=COLOURS[2], linewidth=0.9)
         axes.set_xlabel("density, kg/m$^3$")
         axes.set_title("water met")
     else:

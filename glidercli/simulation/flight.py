@@ -16,8 +16,9 @@ from glidercli.kernel import compiled
 from glidercli.model.mass import momentum
 from glidercli.model.parameters import Controls, Parameters
 from glidercli.ocean.water import Sea, at_depth
-from glidercli.simulation.actuators import Drives, within
-from glidercli.simulation.autopilot import Order, pumped_for
+from glidercli.simulation.actuators import Drives
+from glidercli.simulation.autopilot import Order
+from glidercli.simulation.carrying import check_reach
 from glidercli.simulation.holding import net_excess
 from glidercli.simulation.legs import Leg
 from glidercli.simulation.locating import SURFACE, Ends
@@ -65,8 +66,6 @@ STRETCH = 600.0  # s; steps end at its multiples, so that a flight is the same h
 MOST_SAMPLES = 10_000_000  # some 5 GB of log
 LONGEST_LEG = 5 * 86400.0  # s; at 0.1 m/s the deepest trench is 30 hours away
 _MOST_EVENTS = 1000  # in a stretch
-_LOOKS = 500  # depths at which the net buoyancy of a leg is looked at
-_FAST = 0.6  # m/s; gliders of this kind sink no faster, and do not coast further
 _PIECE = 50_000  # samples given away at once, some 20 MB
 IDEAL = Drives(
     -math.inf, math.inf, math.inf, -math.inf, math.inf, math.inf, -math.inf, math.inf, math.inf, 0.0, math.inf, math.inf
@@ -205,8 +204,8 @@ def fly(
         given = (order, drives, leg.times, leg.values, ends, sea, p, full, every)
         there = (leg.goes == "down" and y[2] >= ends.floor) or (leg.goes == "up" and y[2] <= ends.ceiling)
         there = there or (leg.steered and y[2] == leg.until_depth)
-        if not there and leg.steered and np.isnan(leg.until_altitude) and math.isinf(min(leg.duration, leg.turns)):
-            _check_reach(leg.name, order, drives, float(y[2]), float(m[T]), leg.until_depth, sea, p)
+        if leg.ends_by_depth_alone and not there:
+            check_reach(leg, order, drives, float(y[2]), float(m[T]), sea, p)
         run(y, m, -math.inf, *given, np.empty((0, ROW_WIDTH)), *common)  # compiles, if it must
         status, apogee, began_at = AT_DEPTH if there else GOING_ON, None, float(y[2])
         while status == GOING_ON:
@@ -310,32 +309,6 @@ def _begin(
             )
         m[HELD] = AT_SURFACE
     return y, m
-
-
-def _check_reach(
-    name: str, order: Order, drives: Drives, depth: float, t: float, until: float, sea: Sea, p: Parameters
-) -> None:
-    """Refuse a leg that ends at a depth, m, which its net buoyancy does not carry it to.
-
-    A vehicle coasts through a layer that lifts it as far as its kinetic energy goes. Water that moves up or down may
-    carry it anywhere, and is not judged.
-    """
-    if (sea.current.coefficients[:, :, 2] != 0.0).any():
-        return
-    way = 1.0 if until > depth else -1.0
-    steps = np.linspace(depth, until, _LOOKS)
-    work = 0.0
-    for z in steps:
-        water = at_depth(sea, float(z), t)
-        mb = within(pumped_for(order, water, p), drives.mb_min, drives.mb_max)
-        excess = net_excess(mb, water, p)
-        work = max(0.0, work - way * excess * water.gravity * abs(until - depth) / _LOOKS)
-        if work > 0.5 * (p.ms + p.mr + max(p.MA)) * _FAST**2:
-            raise InputError(
-                f"leg {name}",
-                f"cannot end: at {z:.1f} m its net buoyancy in the water is {excess:.3g} kg (sinking positive), which "
-                f"does not carry it to until_depth_m = {until:g}",
-            )
 
 
 def _row(y: Array, m: Array) -> Array:

@@ -64,6 +64,17 @@ class Leg:
         """Whether controllers set the actuators, not a table."""
         return len(self.times) == 0
 
+    @property
+    def ends_by_depth_alone(self) -> bool:
+        """Whether a steered leg goes on until it comes to its depth."""
+        others = math.isinf(self.duration) and math.isinf(self.turns) and math.isnan(self.until_altitude)
+        return self.steered and others and not math.isnan(self.until_depth)
+
+    @property
+    def extremes(self) -> NDArray[np.float64]:
+        """Least and greatest of each control in the table, (2, 3), NaN where one is; (0, 3) of a steered leg."""
+        return np.stack([self.values.min(axis=0), self.values.max(axis=0)]) if len(self.values) else self.values
+
 
 def held(mass_position: float, mass_rotation: float, net_buoyancy: float) -> Leg:
     """Three controls held for the whole flight (SI, rad)."""

@@ -26,19 +26,14 @@ from __future__ import annotations
 
 import datetime
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import ConfigDict, Discriminator, Field, Tag, TypeAdapter, ValidationError, model_validator
+from pydantic import ConfigDict, Discriminator, Field, Tag, model_validator
 from pydantic.dataclasses import dataclass
 
-from glidercli import shipped
-from glidercli.errors import InputError
-from glidercli.files import read_toml
-
 __all__ = [
-    "ActuatorChanges", "Climb", "ControlsLeg", "Dive", "Drift", "HoldHeading", "Mission", "MissionLeg", "Repeat",
-    "Spiral", "Steering", "Targets", "Wait", "flat", "load_mission",
+    "KINDS", "ActuatorChanges", "Climb", "ControlsLeg", "Dive", "Drift", "HoldHeading", "Mission", "MissionLeg",
+    "Repeat", "Spiral", "Steering", "Targets", "Wait", "flat",
 ]  # fmt: skip
 
 _CONFIG = ConfigDict(extra="forbid", strict=False)
@@ -219,7 +214,7 @@ class Repeat:
     leg: tuple[MissionLeg, ...]
 
 
-_KINDS = ("dive", "climb", "spiral", "hold-heading", "drift", "wait", "controls", "repeat")
+KINDS = ("dive", "climb", "spiral", "hold-heading", "drift", "wait", "controls", "repeat")
 
 
 def _kind(given: Any) -> Any:
@@ -345,56 +340,3 @@ def _one_way(leg: Targets, sign: float) -> list[str]:
             f"the leg goes {way}"
         )
     return faults
-
-
-def load_mission(name_or_path: str | Path) -> tuple[Mission, Path]:
-    """A mission and the file that it came from, by shipped name or path.
-
-    Raises InputError with every fault of the file at once.
-    """
-    text = str(name_or_path)
-    missions = shipped.missions()
-    if text in missions:
-        path = missions[text]
-    elif Path(text).suffix == "" and not Path(text).exists():
-        raise InputError(text, f"is no mission; shipped are {', '.join(missions)}, or give a .toml file")
-    else:
-        path = Path(text)
-    given = read_toml(path, "a mission")
-    try:
-        return TypeAdapter(Mission).validate_python(given), path
-    except ValidationError as error:
-        faults = [_fault(item) for item in error.errors(include_url=False)]
-        count = f"{len(faults)} faults: " if len(faults) > 1 else ""
-        raise InputError(path, count + "; ".join(faults)) from None
-
-
-def _fault(item: Any) -> str:
-    """One fault as text: the leg, the key, its value, what is allowed."""
-    where, key = _place(item["loc"])
-    if item["type"] == "missing":
-        what = f"{key} is missing"
-    elif item["type"] in ("unexpected_keyword_argument", "extra_forbidden"):
-        what = f"{key} is unknown"
-    elif item["type"] == "value_error":
-        what = " ".join(part for part in (key, str(item["ctx"]["error"])) if part)
-    elif item["type"] == "tuple_type":
-        what = f"{key} is no list of tables; write [[{key}]] above each"
-    elif item["type"].startswith("union_tag"):
-        said = item["input"].get("kind") if isinstance(item["input"], dict) else item["input"]
-        what = (
-            f"kind = {said!r}, allowed: {', '.join(_KINDS)}" if said else f"has no kind; allowed: {', '.join(_KINDS)}"
-        )
-    else:
-        what = f"{key} = {item['input']!r}: {item['msg']}"
-    return f"{where}: {what}" if where else what
-
-
-def _place(location: tuple[Any, ...]) -> tuple[str, str]:
-    """Where a fault is, for people, who count legs from one; and its key: leg 2 (dive), pitch_deg."""
-    where, rest = [], list(location)
-    while len(rest) > 1 and rest[0] == "leg" and isinstance(rest[1], int):
-        number, rest = rest[1] + 1, rest[2:]
-        kind = f" ({rest.pop(0)})" if rest and rest[0] in _KINDS else ""
-        where.append(f"leg {number}{kind}")
-    return ", ".join(where), ".".join(str(part) for part in rest)

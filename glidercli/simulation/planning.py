@@ -30,7 +30,7 @@ _TURN_SLACK = 0.02  # water other than uniform, a pitch inside its dead band
 @dataclasses.dataclass(frozen=True)
 class Plan:
     """legs : in the order of flight. drives : limits and rates. files : controls that were read, reconstructed : those
-    that say they are reconstructions. steered : whether any leg is."""
+    that say they are reconstructions."""
 
     legs: list[Leg]
     drives: Drives
@@ -93,8 +93,7 @@ def plan(mission: Mission, path: Path, vehicle: Vehicle, p: Parameters) -> Plan:
             faults += [f"{place}: {fault}"] if fault else []
             made[id(leg)] = _leg(leg, order)
     if faults:
-        count = f"{len(faults)} faults: " if len(faults) > 1 else ""
-        raise InputError(path, count + "; ".join(faults))
+        raise InputError.of_all(path, faults)
     return Plan([made[id(leg)] for leg in flat(mission.leg)], drives, files, reconstructed)
 
 

@@ -123,7 +123,7 @@ def simulate(
     """
     from glidercli.model.parameters import parameters
     from glidercli.ocean.ocean import Ocean
-    from glidercli.simulation.mission import load_mission
+    from glidercli.simulation.mission_file import load_mission
     from glidercli.simulation.task import task
     from glidercli.vehicle import load_vehicle
 
@@ -155,7 +155,7 @@ def simulate(
     if latitude is None:
         latitude = plan[0].latitude if plan else wanted.place[0] if wanted.place else None
     ocean = _ocean(Ocean, p.rho_0, p.T_0, ctd, adcp, latitude, wanted.start_ns)
-    remade = [*ocean.reconstructed, *wanted.reconstructed]
+    remade = list(dict.fromkeys([*ocean.reconstructed, *wanted.reconstructed]))
     flight, log = _flown(
         wanted, ocean, p, craft, _metadata(plan[0] if plan else None, craft, equations, remade), every=every,
         rtol=rtol, full=equations == "full", piece=piece, progress=progress, file=plan[1] if plan else None,
@@ -299,6 +299,7 @@ def _warnings(flight: Flight, craft: Vehicle, wanted: Task) -> list[str]:
         f"{e.duration:.1f} s, {e.first:.1f} to {e.last:.1f} s, largest {math.degrees(e.largest):.1f} deg"
         for e in flight.excursions
     ]
-    outside = {name for leg in wanted.legs for row in leg.values for name in craft.actuators.outside(*row)}
+    tables = {id(leg): leg.extremes for leg in wanted.legs}.values()
+    outside = {name for rows in tables for row in rows for name in craft.actuators.outside(*row)}
     found += [f"{name.replace('_', ' ')} is beyond the limits of {craft.name}" for name in sorted(outside)]
     return found

@@ -15,6 +15,8 @@ from glidercli.errors import InputError, UsageError
 from glidercli.simulation.actuators import Drives
 from glidercli.simulation.legs import Leg, held
 from glidercli.simulation.planning import drives_of, plan
+from glidercli.simulation.recorded import controls_of, place_of, source_of, start_of
+from glidercli.simulation.settling import settled_controls
 from glidercli.simulation.start import Start, from_trim
 from glidercli.vehicle.controls import check_controls
 from glidercli.vehicle.vehicle import Vehicle
@@ -87,7 +89,7 @@ def task(
     if trim:
         start = from_trim(trim, made.start.depth, made.start.heading)
         made = dataclasses.replace(made, start=start)
-        if mission is None and controls is None:
+        if made.legs[0].steered:
             made = dataclasses.replace(made, controls=_controls_of(trim))
     if initial:
         made = _begun_as(made, initial, p, start_depth)
@@ -98,9 +100,8 @@ def task(
 
 def _of_mission(mission: Mission, path: Path, craft: Vehicle, p: Parameters) -> Task:
     planned = plan(mission, path, craft, p)
-    for leg in planned.legs:
-        for row in leg.values:
-            check_controls(craft, *row)
+    for leg in {id(leg): leg for leg in planned.legs}.values():
+        _check_table(leg, craft)
     first = planned.legs[0]
     a = craft.actuators
     nominal = (a.mass_position.nominal, a.mass_rotation.nominal, a.net_buoyancy.nominal)
@@ -147,12 +148,9 @@ def _of_recording(
     given: dict[str, float | None],
     duration: float | None,
 ) -> Task:
-    from glidercli.simulation.recorded import controls_of, source_of
-
     zero = int(initial["depth"].time_ns[0]) if initial is not None and "depth" in initial else None
     leg, zero, warnings = controls_of(controls, zero, craft, p, given)
-    for row in leg.values:
-        check_controls(craft, *row)
+    _check_table(leg, craft)
     lasts = float(leg.times[-1])
     if lasts <= 0.0 and duration is None:
         raise InputError(
@@ -162,16 +160,13 @@ def _of_recording(
     dated = "time_note" not in controls.metadata
     return Task(
         legs=[leg], drives=drives_of(craft), start=Start(), controls=_row_at_start(leg), floats=True, duration=lasts,
-        start_ns=zero if dated else None, place=None, bottom=math.inf, files=[], reconstructed=[],
-        warnings=warnings,
+        start_ns=zero if dated else None, place=None, bottom=math.inf, files=[],
+        reconstructed=_remade(controls), warnings=warnings,
     )  # fmt: skip
 
 
 def _begun_as(made: Task, initial: Log, p: Parameters, depth: float | None) -> Task:
     """The task, begun as a recording shows it at its first depth sample."""
-    from glidercli.simulation.recorded import place_of, start_of
-    from glidercli.simulation.settling import settled_controls
-
     start, warnings = start_of(initial, depth, settled_controls(made.controls, p))
     dated = "time_note" not in initial.metadata
     return dataclasses.replace(
@@ -181,8 +176,22 @@ def _begun_as(made: Task, initial: Log, p: Parameters, depth: float | None) -> T
         legs=[dataclasses.replace(leg, surface_ends=False) if not leg.steered else leg for leg in made.legs],
         start_ns=int(initial["depth"].time_ns[0]) if dated else made.start_ns,
         place=place_of(initial) or made.place,
+        reconstructed=[*made.reconstructed, *_remade(initial)],
         warnings=[*made.warnings, *warnings],
     )
+
+
+def _check_table(leg: Leg, craft: Vehicle) -> None:
+    """Refuse a table of controls that no vehicle can have."""
+    for row in leg.extremes:
+        check_controls(craft, *row)
+
+
+def _remade(log: Log | None) -> list[Path]:
+    """The file of a log that is, or was made from, a reconstruction."""
+    if log is None or not (log.origin == "reconstruction" or "reconstruction" in log.metadata):
+        return []
+    return [Path(source_of(log))]
 
 
 def _controls_of(trim: Mapping[str, Any]) -> tuple[float, float, float]:

@@ -55,9 +55,7 @@ def _read(path: Path) -> Vehicle:
     try:
         return TypeAdapter(Vehicle).validate_python(given, context={"file": str(path)})
     except ValidationError as error:
-        faults = [_fault(item) for item in error.errors(include_url=False)]
-        count = f"{len(faults)} faults: " if len(faults) > 1 else ""
-        raise InputError(path, count + "; ".join(faults)) from None
+        raise InputError.of_all(path, [_fault(item) for item in error.errors(include_url=False)]) from None
 
 
 def _fault(item: Any) -> str:

@@ -157,3 +157,25 @@ def test_controls_without_an_actuator(glider: Run, flown: pd.DataFrame, tmp_path
     flown[["time_utc", "mass_position_m"]].to_csv(tmp_path / "d.csv", index=False)
     one_line_error(glider("simulate", *HELD, "--initial", "d.csv"), "d.csv", "depth")
     one_line_error(glider("simulate", "--controls", "none.csv"), "none.csv")
+
+
+@pytest.mark.parametrize("option", ["--controls", "--initial"])
+def test_what_is_flown_from_a_reconstruction_says_so(
+    glider: Run, flown: pd.DataFrame, tmp_path: Path, option: str
+) -> None:
+    flown.assign(origin="reconstruction").to_csv(tmp_path / "remade.csv", index=False)
+    more = () if option == "--controls" else ("--controls", "flown.csv")
+    done = glider("simulate", option, "remade.csv", *more, "-o", "f.csv")
+    assert done.stdout.startswith("SIMULATED FROM A RECONSTRUCTION: remade.csv")
+    assert set(pd.read_csv(tmp_path / "f.csv")["origin"]) == {"reconstruction"}
+
+
+def test_a_mission_flown_on_from_a_trim_begins_with_its_actuators(glider: Run, tmp_path: Path) -> None:
+    (tmp_path / "t.json").write_text(glider("trim", *HELD, "--json").stdout)
+    assert (
+        glider("simulate", "heading-hold-yoyo", "--trim", "t.json", "--start-depth", "20", "-o", "f.csv").returncode
+        == 0
+    )
+    first = pd.read_csv(tmp_path / "f.csv").iloc[0]
+    assert (first["mass_position_m"], first["net_buoyancy_kg"]) == (0.4216, 0.3)
+    assert first["mass_rotation_deg"] == pytest.approx(45.0)

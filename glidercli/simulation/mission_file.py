@@ -1,0 +1,64 @@
+"""Which mission is meant, and what is wrong with its file? By shipped name or path; every fault told at once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from glidercli import shipped
+from glidercli.errors import InputError
+from glidercli.files import read_toml
+from glidercli.simulation.mission import KINDS, Mission
+
+__all__ = ["load_mission"]
+
+
+def load_mission(name_or_path: str | Path) -> tuple[Mission, Path]:
+    """A mission and the file that it came from, by shipped name or path.
+
+    Raises InputError with every fault of the file at once.
+    """
+    text = str(name_or_path)
+    missions = shipped.missions()
+    if text in missions:
+        path = missions[text]
+    elif Path(text).suffix == "" and not Path(text).exists():
+        raise InputError(text, f"is no mission; shipped are {', '.join(missions)}, or give a .toml file")
+    else:
+        path = Path(text)
+    given = read_toml(path, "a mission")
+    try:
+        return TypeAdapter(Mission).validate_python(given), path
+    except ValidationError as error:
+        raise InputError.of_all(path, [_fault(item) for item in error.errors(include_url=False)]) from None
+
+
+def _fault(item: Any) -> str:
+    """One fault as text: the leg, the key, its value, what is allowed."""
+    where, key = _place(item["loc"])
+    if item["type"] == "missing":
+        what = f"{key} is missing"
+    elif item["type"] in ("unexpected_keyword_argument", "extra_forbidden"):
+        what = f"{key} is unknown"
+    elif item["type"] == "value_error":
+        what = " ".join(part for part in (key, str(item["ctx"]["error"])) if part)
+    elif item["type"] == "tuple_type":
+        what = f"{key} is no list of tables; write [[{key}]] above each"
+    elif item["type"].startswith("union_tag"):
+        said = item["input"].get("kind") if isinstance(item["input"], dict) else item["input"]
+        what = f"kind = {said!r}, allowed: {', '.join(KINDS)}" if said else f"has no kind; allowed: {', '.join(KINDS)}"
+    else:
+        what = f"{key} = {item['input']!r}: {item['msg']}"
+    return f"{where}: {what}" if where else what
+
+
+def _place(location: tuple[Any, ...]) -> tuple[str, str]:
+    """Where a fault is, for people, who count legs from one; and its key: leg 2 (dive), pitch_deg."""
+    where, rest = [], list(location)
+    while len(rest) > 1 and rest[0] == "leg" and isinstance(rest[1], int):
+        number, rest = rest[1] + 1, rest[2:]
+        kind = f" ({rest.pop(0)})" if rest and rest[0] in KINDS else ""
+        where.append(f"leg {number}{kind}")
+    return ", ".join(where), ".".join(str(part) for part in rest)
