@@ -107,7 +107,7 @@ def _say_compiling(name: str, quiet: bool) -> None:
     from glidercli.cli.printing import say
 
     if name == "fly_stretch":
-        say("compiling the flight model, once on this machine: some 15 s", quiet)
+        say("compiling the flight model, once on this machine: some 10 s", quiet)
 
 
 def _one(option: str, files: list[Path] | None) -> Path | None:

@@ -106,15 +106,17 @@ def slope_into(k: Array, i: int, t: float, y: Array, segment: Segment, sea: Sea,
     k[i, SIZE], k[i, SIZE + 1], k[i, SIZE + 2] = r.V
 
 
-A21 = 1 / 5
-A31, A32 = 3 / 40, 9 / 40
-A41, A42, A43 = 44 / 45, -56 / 15, 32 / 9
-A51, A52, A53, A54 = 19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729
-A61, A62, A63, A64, A65 = 9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656
-A71, A73, A74, A75, A76 = 35 / 384, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84
+A = np.array([
+    [1 / 5, 0, 0, 0, 0, 0],
+    [3 / 40, 9 / 40, 0, 0, 0, 0],
+    [44 / 45, -56 / 15, 32 / 9, 0, 0, 0],
+    [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729, 0, 0],
+    [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0],
+    [35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
+])  # fmt: skip
 """The pair's tableau; the last row makes the new state."""
-C2, C3, C4, C5 = 1 / 5, 3 / 10, 4 / 5, 8 / 9
-"""Its nodes; the sixth and seventh are 1."""
+C = np.array([1 / 5, 3 / 10, 4 / 5, 8 / 9, 1, 1])
+"""Its nodes."""
 E1, E3, E4, E5, E6, E7 = 71 / 57600, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40
 """Fifth-order less fourth-order weights."""
 D1, D3, D4 = -12715105075 / 11282082432, 87487479700 / 32700410799, -10690763975 / 1880347072
@@ -126,25 +128,20 @@ D5, D6, D7 = 701980252875 / 199316789632, -1453857185 / 822651844, 69997945 / 29
 def stages(
     y: Array, t: float, h: float, k: Array, new: Array, segment: Segment, sea: Sea, p: Parameters, full: bool
 ) -> None:
-    """One step of h, s: k[0] given, k[1] to k[6] and ``new`` filled."""
-    for j in range(SIZE):
-        new[j] = y[j] + h * A21 * k[0, j]
-    slope_into(k, 1, t + C2 * h, new, segment, sea, p, full)
-    for j in range(SIZE):
-        new[j] = y[j] + h * (A31 * k[0, j] + A32 * k[1, j])
-    slope_into(k, 2, t + C3 * h, new, segment, sea, p, full)
-    for j in range(SIZE):
-        new[j] = y[j] + h * (A41 * k[0, j] + A42 * k[1, j] + A43 * k[2, j])
-    slope_into(k, 3, t + C4 * h, new, segment, sea, p, full)
-    for j in range(SIZE):
-        new[j] = y[j] + h * (A51 * k[0, j] + A52 * k[1, j] + A53 * k[2, j] + A54 * k[3, j])
-    slope_into(k, 4, t + C5 * h, new, segment, sea, p, full)
-    for j in range(SIZE):
-        new[j] = y[j] + h * (A61 * k[0, j] + A62 * k[1, j] + A63 * k[2, j] + A64 * k[3, j] + A65 * k[4, j])
-    slope_into(k, 5, t + h, new, segment, sea, p, full)
-    for j in range(SIZE):
-        new[j] = y[j] + h * (A71 * k[0, j] + A73 * k[2, j] + A74 * k[3, j] + A75 * k[4, j] + A76 * k[5, j])
-    slope_into(k, 6, t + h, new, segment, sea, p, full)
+    """One step of h, s: k[0] given, k[1] to k[6] and ``new`` filled.
+
+    The right-hand side stands in one place, in a loop: it is inlined there, and six copies take seconds to compile.
+    """
+    for i in range(1, 7):  # no NaN of a step that was refused may count, not even times zero
+        for j in range(SIZE):
+            k[i, j] = 0.0
+    for i in range(6):
+        a1, a2, a3, a4, a5, a6 = A[i, 0], A[i, 1], A[i, 2], A[i, 3], A[i, 4], A[i, 5]
+        for j in range(SIZE):
+            new[j] = y[j] + h * (
+                a1 * k[0, j] + a2 * k[1, j] + a3 * k[2, j] + a4 * k[3, j] + a5 * k[4, j] + a6 * k[5, j]
+            )
+        slope_into(k, i + 1, t + C[i] * h, new, segment, sea, p, full)
 
 
 @kernel
