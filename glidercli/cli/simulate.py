@@ -37,7 +37,7 @@ def simulate(
     start_depth: Annotated[float | None, typer.Option(help="Depth of the start, m [default: 0].")] = None,
     latitude: Annotated[float | None, typer.Option(help="Latitude, deg: gravity, and pressure of a cast.")] = None,
     every: Annotated[float, typer.Option(help="Time between samples, s.")] = 1.0,
-    rtol: Annotated[float, typer.Option(help="Relative tolerance of the integrator.")] = 1e-6,
+    rtol: Annotated[float, typer.Option(help="Relative tolerance of the integrator.")] = 1e-7,
     vehicle: Annotated[
         str | None,
         typer.Option(

@@ -21,7 +21,7 @@ from glidercli.simulation.autopilot import Order
 from glidercli.simulation.carrying import check_reach
 from glidercli.simulation.holding import net_excess
 from glidercli.simulation.legs import Leg
-from glidercli.simulation.locating import SURFACE, Ends
+from glidercli.simulation.locating import SURFACE, Ends, turned
 from glidercli.simulation.memory import (
     APOGEE,
     AT_DEPTH,
@@ -34,6 +34,7 @@ from glidercli.simulation.memory import (
     GAMMA_RATE,
     GOING_ON,
     GROUNDED,
+    HEADING,
     HELD,
     LEG_START,
     LIMITS,
@@ -151,7 +152,7 @@ def fly(
     drives: Drives = IDEAL,
     bottom: float = math.inf,
     every: float = 1.0,
-    rtol: float = 1e-6,
+    rtol: float = 1e-7,
     full: bool = True,
     fitted_angle: float = math.inf,
     floats: bool = False,
@@ -197,7 +198,8 @@ def fly(
     for number, leg in enumerate(legs):
         last_leg = number == len(legs) - 1
         ends = _ends(leg, y, m, last_leg, duration, bottom)
-        m[LEG_START], m[SAMPLES], m[TURN], m[LIMITS] = m[T], 0.0, 0.0, 0.0
+        m[LEG_START], m[SAMPLES], m[LIMITS] = m[T], 0.0, 0.0
+        m[HEADING], m[TURN] = turned(y, 0.0), 0.0
         order = _as_they_are(leg.order, m) if leg.keeps else leg.order
         commands = (order.mass_position, order.mass_rotation, order.net_buoyancy) if leg.steered else math.nan
         m[COMMAND_RRX : COMMAND_MB + 1] = commands
@@ -297,7 +299,7 @@ def _begin(
     y[3:7] = start.q_wxyz
     water = at_depth(sea, start.depth, 0.0)
     y[7:10], y[10:13] = momentum(start.V, start.Omega, Controls(*controls, 0.0, 0.0), water.density / p.rho_ref, p)
-    m = new_memory(controls, start.heading)
+    m = new_memory(controls)
     mb = controls[2]
     excess = net_excess(mb, water, p)
     if start.depth <= SURFACE and excess <= 0.0:

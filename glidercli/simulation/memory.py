@@ -22,10 +22,10 @@ FREE, AT_SURFACE, ON_BOTTOM = 0.0, 1.0, 2.0
     RESTED, RRX_RATE, GAMMA_RATE, ROW, SLID, ROTATED, PUMPED, EVALUATIONS, LOGGED, LIMITS,
 ) = range(24)  # fmt: skip
 """What a flight remembers beside its state: time (s), next step (s), last error; actuators and commands (SI); start of
-the leg (s), samples of the controllers in it; heading at the last step and turn since the leg began (rad); what holds
-it, and whether it has come to rest there; rates of slide and rotation up to now (SI); next row to record; travel of the
-slide (m) and of the rotation (rad), oil pumped out (m3); calls of the right-hand side; events logged, and which limits
-were met in this leg (a sum of 1, 2, 4)."""
+the leg (s), samples of the controllers in it; where turns end it, heading at the last step and turn since it began
+(rad); what holds the vehicle, and whether it has come to rest there; rates of slide and rotation up to now (SI); next
+row to record; travel of the slide (m) and of the rotation (rad), oil pumped out (m3); calls of the right-hand side;
+events logged, and which limits were met in this leg (a sum of 1, 2, 4)."""
 
 EVENTS = (
     "apogee", "surfacing", "grounding", "dive begins", "lift-off", "mass position at its limit",
@@ -34,12 +34,12 @@ EVENTS = (
 APOGEE, SURFACING, GROUNDING, DIVES, LIFTS, SLIDE_LIMIT, ROTATION_LIMIT, OIL_LIMIT = range(8)
 
 
-def new_memory(controls: tuple[float, float, float], heading: float) -> Array:
-    """The memory of a flight that begins with these actuators (SI) and heading, rad."""
+def new_memory(controls: tuple[float, float, float]) -> Array:
+    """The memory of a flight that begins with these actuators (SI)."""
     m = np.zeros(24)
     m[STEP], m[ERROR] = FIRST_STEP, 1e-4
     m[RRX], m[GAMMA], m[MB] = m[COMMAND_RRX], m[COMMAND_GAMMA], m[COMMAND_MB] = controls
-    m[HEADING], m[ROW] = heading, 1.0
+    m[ROW] = 1.0
     return m
 
 

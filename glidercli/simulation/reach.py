@@ -22,19 +22,22 @@ class Range(NamedTuple):
 
     depths : (2, 2), least and greatest depth, m, each with its time, s.
     limits : (3,), rad, magnitudes of angle of attack, sideslip and roll beyond which time is counted.
+    slope : tangent of the first two, which are the same.
     angles : (3, 4), for each of these: seconds beyond its limit, first and last time there, s, and the largest
         magnitude, rad.
     """
 
     depths: Array
     limits: Array
+    slope: float
     angles: Array
 
 
 def range_of_none(depth: float, fitted_angle: float) -> Range:
     """The range of a flight that begins at a depth, m; flow angles count beyond ``fitted_angle``, rad, roll at 90."""
     limits = np.array([fitted_angle, fitted_angle, 0.5 * math.pi])
-    return Range(np.array([[depth, 0.0]] * 2), limits, np.array([[0.0, math.inf, -math.inf, 0.0]] * 3))
+    slope = math.tan(fitted_angle) if fitted_angle < 0.5 * math.pi else math.inf
+    return Range(np.array([[depth, 0.0]] * 2), limits, slope, np.array([[0.0, math.inf, -math.inf, 0.0]] * 3))
 
 
 @kernel
@@ -49,8 +52,10 @@ def note_depth(reached: Range, t: float, depth: float) -> None:
 @kernel
 def note_angles(reached: Range, t: float, h: float, V: Vector, q_wxyz: Quaternion) -> None:
     """Note the angles at the end t of a step of h, s, from the velocity through water V, m/s, and the attitude."""
-    _, alpha, beta = flow_angles(V)
     k_b = rotation_ned_body(q_wxyz)[2]
+    if k_b[2] >= 0.0 and V[0] > 0.0 and max(abs(V[1]), abs(V[2])) <= reached.slope * V[0]:
+        return  # none is beyond, as nearly always: no tangent is needed to see it
+    _, alpha, beta = flow_angles(V)
     for i, angle in enumerate((abs(alpha), abs(beta), abs(math.atan2(k_b[1], k_b[2])))):
         if angle > reached.limits[i]:
             reached.angles[i, 0] += h

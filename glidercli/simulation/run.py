@@ -85,7 +85,7 @@ def simulate(
     start_depth: float | None = None,
     latitude: float | None = None,
     every: float = 1.0,
-    rtol: float = 1e-6,
+    rtol: float = 1e-7,
     equations: str = "full",
     outputs: Collection[Path] = (),
     inputs: Iterable[Path] = (),

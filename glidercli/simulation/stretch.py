@@ -15,7 +15,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.frames import Vector, dot
 from glidercli.kernel import kernel
 from glidercli.model.parameters import Parameters
 from glidercli.ocean.water import Sea, at_depth, next_change
@@ -54,6 +53,7 @@ from glidercli.simulation.memory import (
 from glidercli.simulation.reach import Range, note_angles, note_depth
 from glidercli.simulation.sampling import record
 from glidercli.simulation.segments import move_actuators, steered, tabled
+from glidercli.simulation.step_length import LARGEST_STEP, damped_step, smooth_depths, smooth_step
 from glidercli.simulation.stepper import SIZE, WIDTH, Segment, controls_at, dense, error_norm, slope_into, stages
 
 __all__ = ["fly_stretch"]
@@ -61,22 +61,6 @@ __all__ = ["fly_stretch"]
 Array = NDArray[np.float64]
 
 _SMALLEST_STEP = 1e-9  # s
-_LARGEST_STEP = 30.0  # s: a tenth of the shortest leg that anybody flies
-_STABLE = 2.5  # time constants; the pair allows 3.3, coupling and density take some of the difference
-
-
-@kernel
-def damped_step(V: Vector, segment: Segment, gravity: float, p: Parameters) -> float:
-    """Largest step, s, at which the fastest motions stay what they are: decay of the body rates, swing of the roll.
-
-    Explicit steps of this pair are stable up to some 3.3 times the time constant of a decay. Step control by the error
-    alone hovers at that bound, and a steady flight then trembles by more than its tolerance.
-    """
-    I, s = segment.at.I, segment.at.s  # noqa: E741
-    roll, pitch, yaw = I[0][0] + p.IA[0], I[1][1] + p.IA[1], I[2][2] + p.IA[2]
-    damping = max(-p.Kp / roll, -p.Kq / pitch, -p.Kr / yaw) * dot(V, V)
-    swing = math.sqrt(gravity * math.sqrt(dot(s, s)) / roll)
-    return _STABLE / max(damping, swing, 1e-9)
 
 
 @kernel
@@ -88,10 +72,15 @@ def fly_segment(
     t = m[T]
     slope_into(k, 0, t, y, segment, sea, p, full)
     m[EVALUATIONS] += 1.0
+    above, below = smooth_depths(y[2], t, sea, full)
     while t < stop:
         left = stop - t
         V = (k[0, SIZE], k[0, SIZE + 1], k[0, SIZE + 2])
-        h = min(m[STEP], _LARGEST_STEP, damped_step(V, segment, sea.gravity, p))
+        h = min(m[STEP], LARGEST_STEP, damped_step(V, segment, sea.gravity, p))
+        if not above <= y[2] < below:
+            above, below = smooth_depths(y[2], t, sea, full)
+        if not above < y[2] + h * k[0, 2] < below:
+            h = smooth_step(h, y[2], k[0, 2], t, sea, full)
         last = h >= left * (1.0 - 1e-12)
         h = left if last else min(h, max(0.5 * left, _SMALLEST_STEP)) if h > 0.5 * left else h
         stages(y, t, h, k, new, segment, sea, p, full)
@@ -102,9 +91,9 @@ def fly_segment(
             if m[STEP] < _SMALLEST_STEP:
                 return STEP_TOO_SMALL
             continue
-        grown = h * min(5.0, max(0.2, 0.9 * max(error, 1e-10) ** -0.17 * m[ERROR] ** 0.04))
-        m[STEP] = max(m[STEP], grown) if h < m[STEP] else grown
-        m[ERROR] = max(error, 1e-4)
+        if h >= m[STEP]:  # else something shorter bound it, and its error says nothing of longer ones
+            m[STEP] = h * min(5.0, max(0.2, 0.9 * max(error, 1e-10) ** -0.17 * m[ERROR] ** 0.04))
+            m[ERROR] = max(error, 1e-4)
         status, share = ended(y, new, h, k, m, ends, work)
         t_new = (stop if last else t + h) if share == 1.0 else t + share * h
         while m[ROW] * every <= t_new:
@@ -130,9 +119,10 @@ def fly_segment(
         for j in range(3, 7):
             y[j] /= norm
         q = (y[3], y[4], y[5], y[6])
-        change = turned(y, m[HEADING])
-        m[TURN] += change
-        m[HEADING] += change
+        if ends.turn < math.inf:
+            change = turned(y, m[HEADING])
+            m[TURN] += change
+            m[HEADING] += change
         note_depth(reached, t_new, y[2])
         note_angles(reached, t_new, t_new - t, (k[6, SIZE], k[6, SIZE + 1], k[6, SIZE + 2]), q)
         t = t_new

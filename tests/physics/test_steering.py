@@ -191,7 +191,7 @@ def test_a_motor_settles_however_late_it_is(p: Parameters) -> None:
     y = np.zeros(SIZE)
     y[3] = 1.0
     for command in np.linspace(0.1, 1.0, 37):
-        m = new_memory((NEUTRAL, 0.0, 0.0), 0.0)
+        m = new_memory((NEUTRAL, 0.0, 0.0))
         m[T] = 5e7 + command / 3.0
         order = NO_ORDER._replace(mass_position=NEUTRAL, mass_rotation=float(command))
         segment, stop = steered(y, m, order, DRIVES, at_depth(STILL, 0.0, 0.0), p, True, np.zeros((4, 3)))
