@@ -132,7 +132,7 @@ class Ocean:
                     f"the flight lasts from 0 to {duration:.0f} s, the {name}s from {began:.0f} to {ended:.0f} s; the "
                     "first and the last are held beyond"
                 )
-            if given and (shallowest < top or deepest > bottom):
+            if given and (max(shallowest, 0.0) < top or deepest > bottom):
                 warnings.append(
                     f"the flight spans {shallowest:z.1f} to {deepest:.1f} m, the {name} {top:.1f} to {bottom:.1f} m; "
                     "its end values are held beyond"

@@ -19,9 +19,9 @@ from glidercli.ocean.water import Sea, at_depth
 from glidercli.simulation.actuators import Drives
 from glidercli.simulation.autopilot import Order
 from glidercli.simulation.carrying import check_reach
-from glidercli.simulation.holding import net_excess
+from glidercli.simulation.holding import SURFACE, net_excess
 from glidercli.simulation.legs import Leg
-from glidercli.simulation.locating import SURFACE, Ends, turned
+from glidercli.simulation.locating import Ends, turned
 from glidercli.simulation.memory import (
     APOGEE,
     AT_DEPTH,
@@ -330,7 +330,7 @@ def _ends(leg: Leg, y: Array, m: Array, last: bool, duration: float, bottom: flo
         stop = min(stop, float(m[T] + leg.times[-1]))
     return Ends(
         floor=floor,
-        ceiling=until if goes == "up" and not math.isnan(until) else SURFACE,
+        ceiling=until if goes == "up" and not math.isnan(until) else -math.inf,
         bottom=float(bottom),
         time=stop,
         turn=2.0 * math.pi * float(leg.turns),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,11 +25,33 @@ from glidercli.simulation.memory import (
 from glidercli.simulation.sampling import record
 from glidercli.simulation.stepper import PUMP_WORK, SIZE, TRACK, Segment, controls_at, state_of
 
-__all__ = ["drift", "held_until", "net_excess", "rest"]
+__all__ = ["SURFACE", "Walls", "drift", "held_until", "net_excess", "rest", "walls"]
 
 Array = NDArray[np.float64]
 
+SURFACE = 0.0
+_CLEARANCE = 0.1  # m, a hull's radius
 _NEUTRAL = 1e-12  # kg; rounding of a net buoyancy that has just become zero
+
+
+class Walls(NamedTuple):
+    """Depths, m, at which surface and bottom stop a vehicle."""
+
+    surface: float
+    bottom: float
+
+
+@kernel
+def walls(bottom: float, excess: float) -> Walls:
+    """Where surface and bottom stop a vehicle of this net buoyancy in the water, kg, over a bottom at this depth, m.
+
+    Only what is light surfaces, and only what is heavy grounds. While a heavy vehicle at the surface turns over, its
+    centre of mass sinks but its origin may rise by as much as they are apart; it comes down again by itself. Water that
+    moves upward is another matter: it lifts it no further than a hull's radius. A light one on the bottom likewise.
+    """
+    return Walls(
+        SURFACE if excess < -_NEUTRAL else SURFACE - _CLEARANCE, bottom if excess > _NEUTRAL else bottom + _CLEARANCE
+    )
 
 
 @kernel

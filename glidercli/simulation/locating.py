@@ -10,14 +10,13 @@ from numpy.typing import NDArray
 
 from glidercli.frames import rotation_ned_body
 from glidercli.kernel import kernel
+from glidercli.simulation.holding import SURFACE, Walls
 from glidercli.simulation.memory import AT_DEPTH, GOING_ON, GROUNDED, HEADING, SURFACED, TURN, TURNED
 from glidercli.simulation.stepper import dense, state_of
 
-__all__ = ["SURFACE", "Ends", "ended", "turned", "turning_point"]
+__all__ = ["Ends", "ended", "turned", "turning_point"]
 
 Array = NDArray[np.float64]
-
-SURFACE = 0.0
 
 
 class Ends(NamedTuple):
@@ -26,7 +25,7 @@ class Ends(NamedTuple):
     floor: float
     """Depth reached going down, m."""
     ceiling: float
-    """Depth reached going up, m."""
+    """Depth reached going up, m; minus infinity where it does not."""
     bottom: float
     """m."""
     time: float
@@ -98,22 +97,24 @@ def turn_share(y: Array, new: Array, h: float, k: Array, m: Array, turn: float, 
 
 
 @kernel
-def ended(y: Array, new: Array, h: float, k: Array, m: Array, ends: Ends, work: Array) -> tuple[int, float]:
+def ended(
+    y: Array, new: Array, h: float, k: Array, m: Array, ends: Ends, stops: Walls, work: Array
+) -> tuple[int, float]:
     """Whether the leg ends within a step, and at which share of it; the first of what ends it."""
     status, share = GOING_ON, 1.0
     top, bend = (1.0, new[2]) if k[0, 2] * k[6, 2] >= 0.0 else turning_point(y, new, h, k, work)
     lowest, highest = max(new[2], bend), min(new[2], bend)
-    floor, ceiling = min(ends.floor, ends.bottom), max(ends.ceiling, SURFACE)
+    floor, ceiling = min(ends.floor, stops.bottom), max(ends.ceiling, stops.surface)
     sinks, rises = k[0, 2] > 0.0, k[0, 2] < 0.0
     if lowest >= floor and y[2] < floor:
         share = depth_share(y, new, h, k, floor, 0.0, top if bend >= floor else 1.0, work)
-        status = GROUNDED if ends.bottom <= ends.floor else AT_DEPTH
+        status = GROUNDED if stops.bottom <= ends.floor else AT_DEPTH
     elif highest <= ceiling and (y[2] > ceiling or (y[2] == ceiling and sinks)):
         share = depth_share(y, new, h, k, ceiling, top if sinks else 0.0, top if bend <= ceiling else 1.0, work)
-        status = SURFACED if ceiling == SURFACE else AT_DEPTH
-    elif y[2] <= SURFACE and new[2] < SURFACE and not sinks:
+        status = SURFACED if ceiling <= SURFACE else AT_DEPTH
+    elif y[2] <= stops.surface and new[2] < stops.surface and not sinks:
         status, share = SURFACED, 0.0
-    elif y[2] >= ends.bottom and new[2] > ends.bottom and not rises:
+    elif y[2] >= stops.bottom and new[2] > stops.bottom and not rises:
         status, share = GROUNDED, 0.0
     if ends.turn < math.inf and abs(m[TURN] + turned(new, m[HEADING])) >= ends.turn:
         at = turn_share(y, new, h, k, m, ends.turn, work)

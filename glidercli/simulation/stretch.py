@@ -20,8 +20,8 @@ from glidercli.model.parameters import Parameters
 from glidercli.ocean.water import Sea, at_depth, next_change
 from glidercli.simulation.actuators import Drives
 from glidercli.simulation.autopilot import Order
-from glidercli.simulation.holding import drift, held_until, rest
-from glidercli.simulation.locating import SURFACE, Ends, ended, turned, turning_point
+from glidercli.simulation.holding import SURFACE, Walls, drift, held_until, net_excess, rest, walls
+from glidercli.simulation.locating import Ends, ended, turned, turning_point
 from glidercli.simulation.memory import (
     APOGEE,
     AT_DEPTH,
@@ -65,8 +65,9 @@ _SMALLEST_STEP = 1e-9  # s
 
 @kernel
 def fly_segment(
-    y: Array, m: Array, segment: Segment, stop: float, ends: Ends, sea: Sea, p: Parameters, full: bool, every: float,
-    out: Array, first: float, rtol: float, scales: Array, reached: Range, log: Array, k: Array, new: Array, work: Array,
+    y: Array, m: Array, segment: Segment, stop: float, ends: Ends, stops: Walls, sea: Sea, p: Parameters, full: bool,
+    every: float, out: Array, first: float, rtol: float, scales: Array, reached: Range, log: Array, k: Array,
+    new: Array, work: Array,
 ) -> int:  # fmt: skip
     """Integrate over one segment of the actuators, to its end or to that of the leg."""
     t = m[T]
@@ -94,7 +95,7 @@ def fly_segment(
         if h >= m[STEP]:  # else something shorter bound it, and its error says nothing of longer ones
             m[STEP] = h * min(5.0, max(0.2, 0.9 * max(error, 1e-10) ** -0.17 * m[ERROR] ** 0.04))
             m[ERROR] = max(error, 1e-4)
-        status, share = ended(y, new, h, k, m, ends, work)
+        status, share = ended(y, new, h, k, m, ends, stops, work)
         t_new = (stop if last else t + h) if share == 1.0 else t + share * h
         while m[ROW] * every <= t_new:
             dense(work, y, new, h, k, (m[ROW] * every - t) / h)
@@ -112,9 +113,10 @@ def fly_segment(
             dense(work, y, new, h, k, share)
             for j in range(SIZE):
                 y[j] = work[j]
-        if status in (AT_DEPTH, SURFACED, GROUNDED):
-            floor, ceiling = min(ends.floor, ends.bottom), max(ends.ceiling, SURFACE)
-            y[2] = floor if abs(y[2] - floor) < abs(y[2] - ceiling) else ceiling
+        if status == AT_DEPTH:
+            y[2] = ends.floor if abs(y[2] - ends.floor) < abs(y[2] - ends.ceiling) else ends.ceiling
+        elif status in (SURFACED, GROUNDED):
+            y[2] = SURFACE if status == SURFACED else ends.bottom
         norm = math.sqrt(y[3] ** 2 + y[4] ** 2 + y[5] ** 2 + y[6] ** 2)
         for j in range(3, 7):
             y[j] /= norm
@@ -154,7 +156,7 @@ def fly_stretch(
     k, new, work = np.zeros((7, WIDTH)), np.empty(SIZE), np.empty(SIZE)
     first = m[ROW]
     until = min(until, ends.time)
-    left, thrown_back = -1.0, False
+    thrown_back = False
     while m[T] < until:
         water = at_depth(sea, y[2], m[T])
         if len(times_) > 0:
@@ -174,14 +176,15 @@ def fly_stretch(
                 m[T] = leaves
                 continue
             note_event(log, m, DIVES if m[HELD] == AT_SURFACE else LIFTS, m[T], y[2])
-            m[HELD], left = FREE, m[T]
+            m[HELD] = FREE
+        stops = walls(ends.bottom, net_excess(controls_at(segment, m[T]).mb, water, p))
         status = fly_segment(
-            y, m, segment, stop, ends, sea, p, full, every, out, first, rtol, scales, reached, log, k, new, work
+            y, m, segment, stop, ends, stops, sea, p, full, every, out, first, rtol, scales, reached, log, k, new, work
         )
         if status in (SURFACED, GROUNDED):
             surfaced = status == SURFACED
-            thrown_back = bool(m[T] == left)  # water that moves up or down does not let it go
-            if thrown_back:
+            thrown_back = stops.surface < SURFACE if surfaced else stops.bottom > ends.bottom  # by water that moves
+            if thrown_back and m[LOGGED] > 0.0 and log[int(m[LOGGED]) - 1, 0] == (DIVES if surfaced else LIFTS):
                 m[LOGGED] -= 1.0
             else:
                 note_event(log, m, SURFACING if surfaced else GROUNDING, m[T], y[2])

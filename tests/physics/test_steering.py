@@ -15,7 +15,7 @@ from glidercli.ocean import Ocean
 from glidercli.simulation.actuators import Drives
 from glidercli.simulation.autopilot import GIVEN, HEADING, HELD_PITCH, IN_WATER, RADIUS, TURN_RATE, Order
 from glidercli.simulation.flight import Flight, fly
-from glidercli.simulation.legs import NO_ORDER, Leg
+from glidercli.simulation.legs import NO_ORDER, Leg, held
 from glidercli.simulation.start import Start
 
 STILL = Ocean.uniform(1025.0, temperature_reference=15.0).sea
@@ -197,3 +197,30 @@ def test_a_motor_settles_however_late_it_is(p: Parameters) -> None:
         segment, stop = steered(y, m, order, DRIVES, at_depth(STILL, 0.0, 0.0), p, True, np.zeros((4, 3)))
         move_actuators(m, segment, stop, p)
         assert m[GAMMA] == m[COMMAND_GAMMA] == command
+
+
+def test_a_heavy_vehicle_that_turns_over_at_the_surface_is_not_stopped_there(p: Parameters) -> None:
+    """With its mass aft its nose, and with it the origin, rises while the centre of mass sinks: no further than a
+    pendulum swings whose length is what sets the two apart, 2 s / m = 2 x 11 kg x 0.05 m / 65 kg = 17 mm."""
+    flight = fly([held(0.3516, 0.0, 0.02)], STILL, p, duration=600.0, every=0.1)
+    assert [event.name for event in flight.events if event.name in ("surfacing", "dive begins")] == []
+    assert -0.017 < flight.depths[0] < -1e-3
+    assert flight.depths[1] > 1.0
+
+
+def test_the_surface_lets_go_of_a_slow_slide_once(p: Parameters) -> None:
+    """A slide so slow that the mass is still aft when the pump has made the vehicle heavy."""
+    slow = DRIVES._replace(rrx_rate=1e-4)
+    up = Leg("up", order=pitched(p, math.radians(30.0), -0.3), duration=1500.0, surface_ends=False)
+    down = Leg("down", order=pitched(p, math.radians(-30.0), 0.3), goes="down", until_depth=50.0)
+    flight = fly([up, down], STILL, p, controls=(NEUTRAL, 0.0, -0.3), drives=slow, start=Start(depth=20.0))
+    assert [event.name for event in flight.events] == ["surfacing", "end of up", "dive begins", "end of flight"]
+
+
+@pytest.mark.parametrize("rising", [0.001, 0.02])
+def test_water_that_rises_slower_than_a_glider_sinks_does_not_hold_it(p: Parameters, rising: float) -> None:
+    water = Ocean.uniform(1025.0, temperature_reference=15.0).sea
+    water.current.coefficients[3, 0] = (0.0, 0.0, -rising)
+    flight = fly([held(0.4216, 0.0, 0.5)], water, p, duration=500.0)
+    still = fly([held(0.4216, 0.0, 0.5)], STILL, p, duration=500.0)
+    assert flight.depths[1] == pytest.approx(still.depths[1] - rising * 500.0, abs=1e-3)  # carried, no more
