@@ -37,7 +37,7 @@ IN_WATER = 1
 
 _GLIDING = math.tan(math.radians(20.0))
 """Angle of attack, as its tangent, beyond which the vehicle does not glide and its rotation turns it no way in
-particular, as between dive and climb: heading and turn then wait."""
+particular, as between dive and climb: a held turn then waits as it is, a held heading with the mass hanging down."""
 OUT_OF_REACH = math.radians(15.0)
 """Pitch error beyond which the vehicle is still turning over: the mass then waits where static balance puts it."""
 
@@ -103,7 +103,7 @@ def commands(
         if elapsed % (order.time_on + order.time_off) >= order.time_on:
             gamma = 0.0
     elif abs(V[2]) >= _GLIDING * V[0]:
-        pass
+        gamma = 0.0 if order.holds_turn == HEADING else gamma
     elif order.holds_turn == HEADING:
         error = order.wanted - math.atan2(R[1][0], R[0][0])
         error -= 2.0 * math.pi * math.floor(error / (2.0 * math.pi) + 0.5)

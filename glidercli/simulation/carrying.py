@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from glidercli.errors import InputError
 from glidercli.model.parameters import Parameters
@@ -14,29 +15,36 @@ from glidercli.simulation.legs import Leg
 
 __all__ = ["check_reach"]
 
+Array = NDArray[np.float64]
+
 _LOOKS = 500  # depths at which the net buoyancy is looked at
 _FAST = 0.6  # m/s; gliders of this kind sink no faster, and do not coast further
 
 
-def check_reach(leg: Leg, order: Order, drives: Drives, depth: float, t: float, sea: Sea, p: Parameters) -> None:
-    """Refuse a steered leg that begins at a depth, m, and time, s, if its net buoyancy does not carry it to its end.
+def check_reach(leg: Leg, order: Order, drives: Drives, y: Array, t: float, sea: Sea, p: Parameters) -> None:
+    """Refuse a steered leg that begins with a state y at a time, s, if its net buoyancy does not carry it to its end.
 
-    A vehicle coasts through a layer that lifts it as far as its kinetic energy goes. Water that moves up or down may
-    carry it anywhere, and is not judged.
+    A vehicle coasts through a layer that lifts it as far as its kinetic energy goes: that of the start, and once
+    its net buoyancy has driven it, that of a fast glider. Water that moves up or down may carry it anywhere, and is not
+    judged.
     """
     if (sea.current.coefficients[:, :, 2] != 0.0).any():
         return
-    until = leg.until_depth
+    depth, until = float(y[2]), leg.until_depth
     way = 1.0 if until > depth else -1.0
+    mass = p.ms + p.mr + max(p.MA)
     work = 0.0  # J, against it
+    energy = 0.5 * float(y[7:10] @ y[7:10]) / (p.ms + p.mr)  # J, at most
     for z in np.linspace(depth, until, _LOOKS):
         water = at_depth(sea, float(z), t)
         mb = within(pumped_for(order, water, p), drives.mb_min, drives.mb_max)
         excess = net_excess(mb, water, p)
         work = max(0.0, work - way * excess * water.gravity * abs(until - depth) / _LOOKS)
-        if work > 0.5 * (p.ms + p.mr + max(p.MA)) * _FAST**2:
+        if way * excess > 0.0:
+            energy = 0.5 * mass * _FAST**2
+        if work > energy:
             raise InputError(
-                f"leg {leg.name}",
+                leg.place or f"leg {leg.name}",
                 f"cannot end: at {z:.1f} m its net buoyancy in the water is {excess:.3g} kg (sinking positive), which "
                 f"does not carry it to until_depth_m = {until:g}",
             )

@@ -115,7 +115,7 @@ class Flight:
 
     times : (n,) s from the start. samples : (n, len(COLUMNS)). depths : least and greatest, m, between samples too.
     distance : m, length of the horizontal track over ground. excess : kg, net buoyancy in the water at the end.
-    wall : seconds of integration alone.
+    skipped : what is to be said of legs that began beyond their end. wall : seconds of integration alone.
     """
 
     times: Array
@@ -127,6 +127,7 @@ class Flight:
     distance: float
     excess: float
     tallies: Tallies
+    skipped: tuple[str, ...]
     evaluations: int
     wall: float
 
@@ -182,11 +183,11 @@ def fly(
     """
     duration, rtol, every = float(duration), float(rtol), float(every)  # one signature, compiled once
     y, m = _begin(start, controls or _first_controls(legs[0]), sea, p, floats)
-    run: Any = fly_stretch if plain else compiled(fly_stretch)
     look: Any = observe if plain else compiled(observe)
     reached, log = range_of_none(float(start.depth), float(fitted_angle)), np.zeros((_MOST_EVENTS, 3))
     common = (rtol, scales_of(p), reached, log)
     events: list[FlightEvent] = []
+    skipped: list[str] = []
     times, rows, ended_at, wall = [np.zeros(1)], [_row(y, m)], 0.0, 0.0
 
     def seen(times: list[Array], rows: list[Array]) -> tuple[Array, Array]:
@@ -207,9 +208,12 @@ def fly(
         there = (leg.goes == "down" and y[2] >= ends.floor) or (leg.goes == "up" and y[2] <= ends.ceiling)
         there = there or (leg.steered and y[2] == leg.until_depth)
         if leg.ends_by_depth_alone and not there:
-            check_reach(leg, order, drives, float(y[2]), float(m[T]), sea, p)
+            check_reach(leg, order, drives, y, float(m[T]), sea, p)
+        run: Any = fly_stretch if plain else compiled(fly_stretch)  # not before: bad input needs no compiling
         run(y, m, -math.inf, *given, np.empty((0, ROW_WIDTH)), *common)  # compiles, if it must
         status, apogee, began_at = AT_DEPTH if there else GOING_ON, None, float(y[2])
+        if there:
+            skipped.append(f"{leg.place or leg.name} begins at {began_at:.1f} m, beyond its end, and ends at once")
         while status == GOING_ON:
             out = np.empty((int(STRETCH / every) + 2, ROW_WIDTH))
             first, began = int(m[ROW]), time.perf_counter()
@@ -219,7 +223,7 @@ def fly(
                 raise NoSolutionError(f"the motion cannot be integrated beyond {m[T]:.3f} s at {y[2]:.2f} m")
             if math.isinf(duration) and m[T] - m[LEG_START] > LONGEST_LEG and math.isinf(leg.duration):
                 raise InputError(
-                    f"leg {leg.name}",
+                    leg.place or f"leg {leg.name}",
                     f"has not ended {LONGEST_LEG / 86400:g} days after it began, at {y[2]:.1f} m; needed is an end "
                     "that it comes to, or duration_s",
                 )
@@ -252,6 +256,8 @@ def fly(
             events.append(FlightEvent("end of flight" if over else f"end of {leg.name}", float(m[T]), float(y[2])))
         if over:
             break
+    if m[T] == 0.0:
+        raise InputError("flight", f"ends where it begins: {'; '.join(skipped) or events[-1].name}; nothing is flown")
     if not times or not sum(map(len, times)):  # the last samples were given away
         times, rows = [np.full(1, ended_at)], [_row(y, m)]
     when, samples = seen(times, rows)
@@ -276,6 +282,7 @@ def fly(
             pumped=float(m[PUMPED]),
             pump_work=float(y[PUMP_WORK]),
         ),
+        skipped=tuple(dict.fromkeys(skipped)),
         evaluations=int(m[EVALUATIONS]),
         wall=wall,
     )
@@ -326,7 +333,7 @@ def _ends(leg: Leg, y: Array, m: Array, last: bool, duration: float, bottom: flo
     if not math.isnan(leg.until_altitude):
         floor = min(floor, bottom - leg.until_altitude)
     stop = min(duration, float(m[T]) + leg.duration)
-    if not leg.steered and math.isnan(until) and not last:
+    if not leg.steered and math.isnan(until) and math.isinf(leg.duration) and not last:
         stop = min(stop, float(m[T] + leg.times[-1]))
     return Ends(
         floor=floor,

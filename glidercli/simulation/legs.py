@@ -38,6 +38,7 @@ class Leg:
         on.
     keeps : whether the actuators stay where the leg finds them, whatever the order says.
     reconstructed : whether its controls come from a file that says that it is a reconstruction.
+    place : where it stands in the mission's file, for messages.
     """
 
     name: str
@@ -53,6 +54,7 @@ class Leg:
     surface_ends: bool = True
     bottom_ends: bool = True
     keeps: bool = False
+    place: str = ""
 
     def __post_init__(self) -> None:
         """Own, writable arrays: the compiled integrator then has one signature."""
@@ -81,7 +83,7 @@ def held(mass_position: float, mass_rotation: float, net_buoyancy: float) -> Leg
     return Leg("held", np.zeros(1), np.array([[mass_position, mass_rotation, net_buoyancy]]))
 
 
-def read_controls(path: Path, name: str, until_depth: float | None) -> Leg:
+def read_controls(path: Path, name: str) -> Leg:
     """Controls from a CSV table with elapsed_s, mass_position_m, mass_rotation_deg and net_buoyancy_kg."""
     import pandas as pd
 
@@ -111,4 +113,4 @@ def read_controls(path: Path, name: str, until_depth: float | None) -> Leg:
     ).astype(float)
     said = enumerate(table["origin"].fillna("").astype(str), start=2) if "origin" in table else ()
     reconstructed = "reconstruction" in origins(path, said)
-    return Leg(name, times, values, math.nan if until_depth is None else until_depth, reconstructed)
+    return Leg(name, times, values, reconstructed=reconstructed)

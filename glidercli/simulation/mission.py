@@ -33,12 +33,13 @@ from pydantic.dataclasses import dataclass
 
 __all__ = [
     "KINDS", "ActuatorChanges", "Climb", "ControlsLeg", "Dive", "Drift", "HoldHeading", "Mission", "MissionLeg",
-    "Repeat", "Spiral", "Steering", "Targets", "Wait", "flat",
+    "Repeat", "Spiral", "Steering", "Targets", "Wait", "flat", "places",
 ]  # fmt: skip
 
 _CONFIG = ConfigDict(extra="forbid", strict=False)
 LONGEST = 1e8  # s, three years: more than any battery lasts; times are kept to 1e-8 s up to there
 MOST_LEGS = 100_000
+_YEARS = (1700, 2200)  # times are kept in ns of 64 bits, which hold 1678 to 2261
 
 
 def _number(least: float, most: float) -> Any:
@@ -72,10 +73,18 @@ class Ends:
 
     def _ends(self) -> list[str]:
         """A fault if nothing ends the leg."""
-        given = (self.until_depth_m, self.until_altitude_m, self.duration_s, self.turns)
-        if all(item is None for item in given):
+        others = (self.until_depth_m, self.until_altitude_m, self.duration_s)
+        if any(item is not None for item in others):
+            return []
+        if self.turns is None:
             return ["cannot end; needed is one of until_depth_m, until_altitude_m, duration_s, turns"]
+        if not self._turns():
+            return ["cannot end: it goes straight; needed is one of until_depth_m, until_altitude_m, duration_s"]
         return []
+
+    def _turns(self) -> bool:
+        """Whether the leg turns on and on."""
+        return False
 
 
 @dataclass(frozen=True, config=_CONFIG, kw_only=True)
@@ -103,6 +112,9 @@ class Targets(Ends):
         if faults:
             raise ValueError("; ".join(faults))
         return self
+
+    def _turns(self) -> bool:
+        return bool(self.turn_rate_deg_s or self.turning_radius_m or self.mass_rotation_deg)
 
     def _targets(self) -> list[str]:
         """Faults of targets that are missing or contradict each other."""
@@ -162,7 +174,7 @@ class Spiral(Targets):
     def _of_kind(self) -> list[str]:
         if self.heading_deg is not None:
             return ["heading_deg is for legs that go straight; a spiral holds its turn"]
-        if not (self.turning_radius_m or self.turn_rate_deg_s or self.mass_rotation_deg):
+        if not self._turns():
             return ["does not turn; needed is one of turning_radius_m, turn_rate_deg_s, mass_rotation_deg, not 0"]
         return []
 
@@ -198,12 +210,13 @@ class Wait:
 @dataclass(frozen=True, config=_CONFIG, kw_only=True)
 class ControlsLeg:
     """Actuators from a table, without limits or rates: elapsed_s (of the leg), mass_position_m, mass_rotation_deg,
-    net_buoyancy_kg; ends at a depth, else with the table or, as the last leg, with the flight."""
+    net_buoyancy_kg; ends at a depth or after a time, else with the table or, as the last leg, with the flight."""
 
     controls: str
     kind: Literal["controls"] = "controls"
     name: str | None = None
     until_depth_m: Depth | None = None
+    duration_s: Seconds | None = None
 
 
 @dataclass(frozen=True, config=_CONFIG, kw_only=True)
@@ -292,13 +305,19 @@ class Mission:
     @model_validator(mode="after")
     def _check(self) -> Self:
         faults = [] if _count(self.leg) else ["leg = [], at least one is needed"]
-        if self.bottom_m is None and any(getattr(leg, "until_altitude_m", None) is not None for leg in _once(self.leg)):
-            faults.append("until_altitude_m needs bottom_m, the depth of the bottom")
+        over = [place for place, leg in places(self.leg) if getattr(leg, "until_altitude_m", None) is not None]
+        if self.bottom_m is None and over:
+            faults.append(f"{over[0]}: until_altitude_m needs the mission's bottom_m, the depth of the bottom")
+        if self.start_time is not None and not _YEARS[0] <= self.start_time.year <= _YEARS[1]:
+            faults.append(f"start_time = {self.start_time.isoformat()}, allowed the years {_YEARS[0]} to {_YEARS[1]}")
         if self.bottom_m is not None and self.start_depth_m >= self.bottom_m:
             faults.append(f"start_depth_m = {self.start_depth_m:g}, allowed less than bottom_m = {self.bottom_m:g}")
         last = self.leg[-1] if self.leg else None
-        if self.duration_s is None and isinstance(last, ControlsLeg) and last.until_depth_m is None:
-            faults.append(f"leg {len(self.leg)} (controls) is the last and cannot end; needed is duration_s")
+        if self.duration_s is None and isinstance(last, ControlsLeg) and not (last.until_depth_m or last.duration_s):
+            faults.append(
+                f"leg {len(self.leg)} (controls) is the last and cannot end; needed is until_depth_m, or duration_s of "
+                "the leg or of the mission"
+            )
         if _count(self.leg) > MOST_LEGS:
             faults.append(f"repeats make more than {MOST_LEGS} legs, the most allowed")
         if faults:
@@ -321,10 +340,14 @@ def _count(legs: tuple[Any, ...]) -> int:
     return sum(leg.repeat * _count(leg.leg) if isinstance(leg, Repeat) else 1 for leg in legs)
 
 
-def _once(legs: tuple[Any, ...]) -> Iterator[Any]:
-    """Every leg as it stands in the file."""
-    for leg in legs:
-        yield from _once(leg.leg) if isinstance(leg, Repeat) else (leg,)
+def places(legs: tuple[Any, ...], within: str = "") -> Iterator[tuple[str, Any]]:
+    """Every leg of a mission once, with its place in the file."""
+    for number, leg in enumerate(legs, start=1):
+        place = f"{within}leg {number}"
+        if isinstance(leg, Repeat):
+            yield from places(leg.leg, f"{place}, ")
+        else:
+            yield f"{place} ({leg.kind})", leg
 
 
 def _one_way(leg: Targets, sign: float) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 from typing import Any
 
@@ -10,9 +11,28 @@ from pydantic import TypeAdapter, ValidationError
 from glidercli import shipped
 from glidercli.errors import InputError
 from glidercli.files import read_toml
-from glidercli.simulation.mission import KINDS, Mission
+from glidercli.simulation.mission import (
+    KINDS,
+    ActuatorChanges,
+    Climb,
+    ControlsLeg,
+    Dive,
+    Drift,
+    HoldHeading,
+    Mission,
+    Repeat,
+    Spiral,
+    Steering,
+    Wait,
+)
 
 __all__ = ["load_mission"]
+
+_TABLES = {
+    "actuators": ActuatorChanges, "steering": Steering, "dive": Dive, "climb": Climb, "spiral": Spiral,
+    "hold-heading": HoldHeading, "drift": Drift, "wait": Wait, "controls": ControlsLeg, "repeat": Repeat,
+}  # fmt: skip
+"""What the tables of a file become, by name or kind."""
 
 
 def load_mission(name_or_path: str | Path) -> tuple[Mission, Path]:
@@ -41,7 +61,7 @@ def _fault(item: Any) -> str:
     if item["type"] == "missing":
         what = f"{key} is missing"
     elif item["type"] in ("unexpected_keyword_argument", "extra_forbidden"):
-        what = f"{key} is unknown"
+        what = f"{key} is unknown; known here: {', '.join(_known(item['loc'][:-1]))}"
     elif item["type"] == "value_error":
         what = " ".join(part for part in (key, str(item["ctx"]["error"])) if part)
     elif item["type"] == "tuple_type":
@@ -52,6 +72,15 @@ def _fault(item: Any) -> str:
     else:
         what = f"{key} = {item['input']!r}: {item['msg']}"
     return f"{where}: {what}" if where else what
+
+
+def _known(location: tuple[Any, ...]) -> list[str]:
+    """The keys that may stand at a place in the file."""
+    cls: Any = Mission
+    for part in location:
+        if isinstance(part, str):
+            cls = _TABLES.get(part, cls)
+    return [field.name for field in dataclasses.fields(cls)]
 
 
 def _place(location: tuple[Any, ...]) -> tuple[str, str]:

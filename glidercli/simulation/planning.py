@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 from glidercli.errors import InputError
 from glidercli.model.mass import first_moment
@@ -14,7 +12,17 @@ from glidercli.model.parameters import Controls, Parameters
 from glidercli.simulation.actuators import Drives
 from glidercli.simulation.autopilot import GIVEN, HEADING, HELD_PITCH, IN_WATER, RADIUS, TURN_RATE, Order
 from glidercli.simulation.legs import Leg, read_controls
-from glidercli.simulation.mission import ControlsLeg, Drift, Mission, Repeat, Spiral, Steering, Targets, Wait, flat
+from glidercli.simulation.mission import (
+    ControlsLeg,
+    Drift,
+    Mission,
+    Spiral,
+    Steering,
+    Targets,
+    Wait,
+    flat,
+    places,
+)
 from glidercli.simulation.settling import Settled
 from glidercli.simulation.turning import turns_of
 from glidercli.vehicle.vehicle import Vehicle
@@ -75,36 +83,35 @@ def plan(mission: Mission, path: Path, vehicle: Vehicle, p: Parameters) -> Plan:
     """
     drives = drives_of(vehicle, mission)
     faults = _disordered(drives)
+    ordered = not faults
     made: dict[int, Leg] = {}
     files, reconstructed = [], []
-    for place, leg in _places(mission.leg):
+    for place, leg in places(mission.leg):
         if isinstance(leg, ControlsLeg):
             file = path.parent / leg.controls
-            table = read_controls(file, leg.name or leg.kind, leg.until_depth_m)
+            table = read_controls(file, leg.name or leg.kind)
+            table = dataclasses.replace(
+                table,
+                place=place,
+                until_depth=math.nan if leg.until_depth_m is None else leg.until_depth_m,
+                duration=leg.duration_s or math.inf,
+            )
             files.append(file)
             reconstructed += [file] if table.reconstructed else []
             made[id(leg)] = table
         elif isinstance(leg, Drift | Wait):
-            made[id(leg)] = _resting(leg, drives, p)
+            made[id(leg)] = dataclasses.replace(_resting(leg, drives, p), place=place)
+        elif not ordered:
+            continue
         elif beyond := _beyond(leg, drives, p):
             faults += [f"{place}: {fault}" for fault in beyond]
         elif not faults:
             order, fault = _turning(leg, _order(leg, mission.steering, drives, p), drives, p)
             faults += [f"{place}: {fault}"] if fault else []
-            made[id(leg)] = _leg(leg, order)
+            made[id(leg)] = dataclasses.replace(_leg(leg, order), place=place)
     if faults:
         raise InputError.of_all(path, faults)
     return Plan([made[id(leg)] for leg in flat(mission.leg)], drives, files, reconstructed)
-
-
-def _places(legs: tuple[Any, ...], within: str = "") -> Iterator[tuple[str, Any]]:
-    """Every leg of a mission once, with its place in the file."""
-    for number, leg in enumerate(legs, start=1):
-        place = f"{within}leg {number}"
-        if isinstance(leg, Repeat):
-            yield from _places(leg.leg, f"{place}, ")
-        else:
-            yield f"{place} ({leg.kind})", leg
 
 
 def _disordered(d: Drives) -> list[str]:

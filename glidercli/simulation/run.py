@@ -300,6 +300,7 @@ def _warnings(flight: Flight, craft: Vehicle, wanted: Task) -> list[str]:
         for e in flight.excursions
     ]
     tables = {id(leg): leg.extremes for leg in wanted.legs}.values()
+    found += flight.skipped
     outside = {name for rows in tables for row in rows for name in craft.actuators.outside(*row)}
     found += [f"{name.replace('_', ' ')} is beyond the limits of {craft.name}" for name in sorted(outside)]
     return found

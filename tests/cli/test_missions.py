@@ -125,12 +125,21 @@ def test_the_actuators_of_a_mission_are_the_missions(glider: Run, tmp_path: Path
         (DIVE + "heading_deg = 90.0\nturn_rate_deg_s = 0.1\n", ("heading_deg and turn_rate_deg_s",)),
         (DIVE.replace('"dive"', '"spiral"') + "turning_radius_m = 10.0\n", ("turning_radius_m = 10", "m or more")),
         (DIVE.replace('"dive"', '"loop"'), ("leg 1", "kind = 'loop'", "hold-heading")),
-        (DIVE + "dept_m = 3\n", ("leg 1 (dive)", "dept_m is unknown")),
-        (DIVE.replace("until_depth_m", "until_altitude_m"), ("bottom_m",)),
+        (DIVE + "dept_m = 3\n", ("leg 1 (dive)", "dept_m is unknown", "until_depth_m", "pitch_deg")),
+        ("sped = 3\n" + DIVE, ("sped is unknown", "start_depth_m")),
+        ("[steering]\ngain = 3.0\n" + DIVE, ("gain is unknown", "heading_gain")),
+        (DIVE.replace("until_depth_m = 100.0", "turns = 3.0"), ("leg 1 (dive)", "goes straight", "until_depth_m")),
+        ("start_time = 9999-01-01T00:00:00Z\n" + DIVE, ("start_time = 9999", "1700 to 2200")),
+        ("start_depth_m = 200.0\n" + DIVE, ("leg 1 (dive)", "200.0 m", "beyond its end")),
+        (
+            "[actuators]\nmass_position_min_m = 0.5\nmass_position_max_m = 0.4\n" + DIVE,
+            ("plan.toml: actuators: mass_position_min_m and mass_position_max_m must increase",),
+        ),
+        (DIVE.replace("until_depth_m", "until_altitude_m"), ("leg 1 (dive)", "bottom_m")),
         ("duration_s = 1e9\n" + DIVE, ("duration_s = 1000000000.0", "100000000")),
         ("duration_s = nan\n" + DIVE, ("duration_s",)),
-        (CLIMB.replace("-0.3", "0.3").replace("0.0\n", "0.0\n"), ("leg climb", "cannot end", "until_depth_m = 0")),
-        (DIVE.replace("0.3", "-0.3"), ("leg dive", "cannot end")),
+        (CLIMB.replace("-0.3", "0.3").replace("0.0\n", "0.0\n"), ("leg 1 (climb)", "cannot end", "until_depth_m = 0")),
+        (DIVE.replace("0.3", "-0.3"), ("leg 1 (dive)", "cannot end")),
         ("leg = []\n", ("leg",)),
         ("[steering]\nperiod_s = 0.0\n" + DIVE, ("steering.period_s = 0.0",)),
         ("[actuators]\nnet_buoyancy_min_kg = 0.6\n" + DIVE, ("net_buoyancy_min_kg and net_buoyancy_max_kg",)),
@@ -160,4 +169,20 @@ def test_unsorted_controls_name_file_and_line(glider: Run, tmp_path: Path) -> No
 def test_water_that_holds_the_vehicle_up_is_named(glider: Run, tmp_path: Path) -> None:
     (tmp_path / "w.csv").write_text("depth_m,density_kg_m3\n0,1025\n50,1025\n60,1033\n500,1034\n")
     text = 'ctd = "w.csv"\n' + DIVE.replace("100.0", "400.0")
-    one_line_error(glider("simulate", plan(tmp_path, text)), "plan.toml", "leg dive", "cannot end", "400")
+    one_line_error(glider("simulate", plan(tmp_path, text)), "plan.toml", "leg 1 (dive)", "cannot end", "400")
+
+
+def test_a_leg_that_begins_beyond_its_end_is_told(glider: Run, tmp_path: Path) -> None:
+    high = CLIMB.replace("until_depth_m = 0.0", "until_depth_m = 150.0")
+    done = glider("simulate", plan(tmp_path, DIVE + high + CLIMB))
+    assert done.returncode == 0
+    assert "leg 2 (climb) begins at 100.0 m, beyond its end" in done.stderr
+
+
+def test_a_leg_of_controls_may_end_after_a_time(glider_json: Callable[..., Any], tmp_path: Path) -> None:
+    (tmp_path / "c.csv").write_text(
+        "elapsed_s,mass_position_m,mass_rotation_deg,net_buoyancy_kg\n0,0.42,0,0.3\n10,0.42,0,0.3\n"
+    )
+    text = '[[leg]]\nkind = "controls"\ncontrols = "c.csv"\nduration_s = 60.0\n'
+    document = glider_json("simulate", plan(tmp_path, 2 * text))
+    assert [event["time_s"] for event in document["events"] if event["name"].startswith("end of")] == [60.0, 120.0]
