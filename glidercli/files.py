@@ -56,6 +56,8 @@ def check_outputs(paths: Collection[Path], suffixes: Collection[str], force: boo
 
     suffixes : allowed endings, lower case with the dot. The path "-" (standard output) always passes.
     """
+    if [str(path) for path in paths].count("-") > 1:
+        raise OutputError("-", "is named twice as output")
     for path in paths:
         if str(path) == "-":
             continue
@@ -96,11 +98,12 @@ def atomic(path: Path, force: bool) -> Iterator[Path]:
     _check_no_folder(path)
     if path.exists() and not force:
         raise OutputError(path, "exists; --force replaces it")
-    beside = path.with_name(f".{path.stem}.part-{os.getpid()}{path.suffix}")
+    target = path.resolve()  # a link stays, what it points to is replaced
+    beside = target.with_name(f".{path.stem}.part-{os.getpid()}{path.suffix}")
     try:
         beside.touch()  # a place that cannot be written shows here, before any writer's own words
         yield beside
-        os.replace(beside, path)
+        os.replace(beside, target)
     except OSError as error:
         raise OutputError(path, f"cannot be written: {error.strerror or error}") from error
     finally:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import signal
 import sys
+from typing import NoReturn
 
 __all__ = ["main"]
 
@@ -12,6 +14,7 @@ def main() -> None:
     from glidercli.cli.app import app
     from glidercli.errors import GliderError
 
+    signal.signal(signal.SIGTERM, _terminated)
     try:
         app(prog_name="glider")
     except GliderError as error:
@@ -25,6 +28,11 @@ def main() -> None:
         if "--debug" in sys.argv:
             raise
         _fail(f"internal error, {type(error).__name__}: {error} (--debug shows where)", 1)
+
+
+def _terminated(number: int, frame: object) -> NoReturn:
+    """A request to end is an interruption like that from the keyboard: outputs appear whole or not at all."""
+    raise KeyboardInterrupt
 
 
 def _fail(message: str, exit_code: int) -> None:

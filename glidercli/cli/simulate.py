@@ -28,7 +28,10 @@ def simulate(
     ] = None,
     trim: Annotated[
         Path | None,
-        typer.Option(metavar="FILE|-", help="Begin in a trim, and hold its controls: what glider trim --json printed."),
+        typer.Option(
+            metavar="FILE|-",
+            help="Begin in a trim, what glider trim --json printed; without a mission hold its controls.",
+        ),
     ] = None,
     net_buoyancy: Annotated[float | None, typer.Option(help="Held net buoyancy, kg, sinking positive.")] = None,
     mass_position: Annotated[float | None, typer.Option(help="Held position of the movable mass, m.")] = None,

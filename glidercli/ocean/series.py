@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import itertools
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -31,38 +32,56 @@ class Moment(NamedTuple):
 def parts(table: Table) -> list[tuple[Moment | None, Table]]:
     """The profiles of a table with their times, in the table's order; one without a time where it holds one only.
 
-    A time for every row is that of a sample within one profile. Raises InputError where a time cannot be read or does
-    not come after the one before, naming the line.
+    A time for every row is that of a sample within one profile. Raises InputError where a time cannot be read, does not
+    come after the one before, or elapsed_s and time_utc contradict each other, naming the line.
     """
-    column = next((name for name in ("elapsed_s", "time_utc") if name in table), None)
-    if column is None:
+    columns = [name for name in ("elapsed_s", "time_utc") if name in table and any(table.cells[name])]
+    if not columns:
         return [(None, table)]
-    cells = table.cells[column]
+    cells = list(zip(*(table.cells[name] for name in columns), strict=True))
     runs = [list(rows) for _, rows in itertools.groupby(range(len(table)), key=lambda row: cells[row])]
+    firsts = [rows[0] for rows in runs]
+    seconds = [[_seconds(table, name, row) for row in firsts] for name in columns]
+    _check_clocks(table, firsts, columns, seconds)
     if len(runs) == 1 or max(map(len, runs)) == 1:
         return [(None, table)]
-    found: list[tuple[Moment | None, Table]] = []
-    before = None
-    for rows in runs:
-        line, cell = table.lines[rows[0]], cells[rows[0]]
-        moment = Moment(_seconds(table, column, line, cell), column == "time_utc")
-        if before is not None and moment.seconds <= before.seconds:
+    times = seconds[0]
+    for i in range(1, len(times)):
+        if times[i] <= times[i - 1]:
             raise InputError(
-                table.path, f"line {line}: {column} = {cell} does not come after the time before; profiles in time "
-                "must stand one after the other"
+                table.path, f"line {table.lines[firsts[i]]}: {columns[0]} = {cells[firsts[i]][0]} does not come after "
+                "the time before; profiles in time must stand one after the other"
             )  # fmt: skip
-        found.append((moment, table.rows(np.isin(np.arange(len(table)), rows))))
-        before = moment
-    return found
+    return [
+        (Moment(at, columns[0] == "time_utc"), table.rows(np.isin(np.arange(len(table)), rows)))
+        for at, rows in zip(times, runs, strict=True)
+    ]
 
 
-def _seconds(table: Table, column: str, line: int, cell: str) -> float:
+def _check_clocks(table: Table, rows: list[int], columns: list[str], seconds: list[list[float]]) -> None:
+    """Refuse two columns of times that do not go alike, to a second. rows : those that the seconds are of."""
+    if len(columns) < 2:
+        return
+    for i, (elapsed, utc) in enumerate(zip(*seconds, strict=True)):
+        if abs((utc - seconds[1][0]) - (elapsed - seconds[0][0])) > 1.0:
+            raise InputError(
+                table.path, f"line {table.lines[rows[i]]}: elapsed_s and time_utc contradict each other; they must go "
+                "alike, or one be left out"
+            )  # fmt: skip
+
+
+def _seconds(table: Table, column: str, row: int) -> float:
     """A cell as seconds: since the start, or since 1970."""
+    cell = table.cells[column][row]
     try:
         if column == "elapsed_s":
-            return float(cell)
+            seconds = float(cell)
+            if not math.isfinite(seconds):
+                raise ValueError
+            return seconds
         told = datetime.datetime.fromisoformat(cell)
     except ValueError:
         needed = "a number of seconds" if column == "elapsed_s" else "ISO 8601, as 2011-07-20T04:28:00Z,"
-        raise InputError(table.path, f"line {line}: {column} = {cell or 'empty'}; {needed} is needed") from None
+        what = f"line {table.lines[row]}: {column} = {cell or 'empty'}; {needed} is needed"
+        raise InputError(table.path, what) from None
     return (told if told.tzinfo else told.replace(tzinfo=datetime.UTC)).timestamp()

@@ -73,6 +73,12 @@ class Leg:
         return self.steered and others and not math.isnan(self.until_depth)
 
     @property
+    def ends_by_time_alone(self) -> bool:
+        """Whether the leg lasts its duration whatever happens on it."""
+        others = math.isinf(self.turns) and math.isnan(self.until_altitude) and math.isnan(self.until_depth)
+        return math.isfinite(self.duration) and others and not (self.surface_ends or self.bottom_ends)
+
+    @property
     def extremes(self) -> NDArray[np.float64]:
         """Least and greatest of each control in the table, (2, 3), NaN where one is; (0, 3) of a steered leg."""
         return np.stack([self.values.min(axis=0), self.values.max(axis=0)]) if len(self.values) else self.values

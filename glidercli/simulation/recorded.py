@@ -24,6 +24,8 @@ them, and at a pitch of 90 deg heading and roll mean nothing."""
 _NEAR = 60.0  # s; how far from the first depth another channel may be, ten of the trial's samples
 _LONG_GAP = 600.0  # s without a sample of an actuator that are worth a word: motors move every few minutes
 
+_SAME_DIVE = 86400.0  # s; controls further from the start are of another dive, or of another clock
+
 CONTROLS = ("mass_position", "mass_rotation", "net_buoyancy")
 
 
@@ -80,12 +82,21 @@ def controls_of(
             values[:, column] = np.interp(seconds, (times - zero) / 1e9, samples)
         else:
             values[:, column] = held[name]
+    if seconds[0] > _SAME_DIVE or seconds[-1] < -_SAME_DIVE:
+        raise InputError(
+            source_of(log), f"its actuators are recorded from {_days(seconds[0])} on, as the start counts; "
+            "needed is a recording that begins within a day of it, on the same clock"
+        )  # fmt: skip
     if seconds[0] > 1.0:
         warnings.append(f"controls: the first sample comes {seconds[0]:.1f} s after the start; held there until then")
     widest = float(np.diff(seconds).max()) if len(seconds) > 1 else 0.0
     if widest > _LONG_GAP:
         warnings.append(f"controls: up to {widest:.0f} s lie between samples; linear between them")
     return Leg("recorded controls", seconds, values, surface_ends=False, bottom_ends=False), zero, warnings
+
+
+def _days(seconds: float) -> str:
+    return f"{abs(seconds) / 86400.0:.1f} days {'after' if seconds > 0.0 else 'before'} the start"
 
 
 def start_of(log: Log, depth: float | None, steady: Settled | None) -> tuple[Start, list[str]]:
@@ -99,8 +110,10 @@ def start_of(log: Log, depth: float | None, steady: Settled | None) -> tuple[Sta
     if "depth" not in log:
         raise InputError(source_of(log), f"has no depth; its channels are {', '.join(log.channels)}")
     at = int(log["depth"].time_ns[0])
-    recorded = max(0.0, float(log["depth"].values[0]))
+    recorded = float(log["depth"].values[0])
     warnings: list[str] = []
+    if recorded < 0.0 and depth is None:
+        warnings.append(f"initial depth of {recorded:.4g} m is above the surface; taken is 0 m")
     instead = steady or Settled.at_rest()
     what = "that of a trim for the first controls" if steady else "0: the first controls settle to no steady flight"
     found = {name: _value(log, name, at) for name in ("heading", "pitch", "roll", "speed_through_water")}
@@ -118,7 +131,7 @@ def start_of(log: Log, depth: float | None, steady: Settled | None) -> tuple[Sta
     V, Omega = _motion(log, at, found["speed_through_water"], instead)
     roll, pitch = found["roll"], found["pitch"]
     start = Start(
-        depth=recorded if depth is None else depth,
+        depth=max(0.0, recorded) if depth is None else depth,
         roll=instead.roll if roll is None else roll,
         pitch=instead.pitch if pitch is None else pitch,
         heading=found["heading"] or 0.0,

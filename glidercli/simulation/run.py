@@ -151,17 +151,24 @@ def simulate(
         duration=duration,
     )  # fmt: skip
     check_not_inputs(outputs, wanted.files)
-    _check_samples(wanted.duration, every)
+    least = sum(leg.duration for leg in wanted.legs if leg.ends_by_time_alone)
+    _check_samples(wanted.duration if math.isfinite(wanted.duration) else least, every)
     if latitude is None:
         latitude = plan[0].latitude if plan else wanted.place[0] if wanted.place else None
     ocean = _ocean(Ocean, p.rho_0, p.T_0, ctd, adcp, latitude, wanted.start_ns)
+    how = "recorded controls" if controls else "controls held"
     remade = list(dict.fromkeys([*ocean.reconstructed, *wanted.reconstructed]))
     flight, log = _flown(
-        wanted, ocean, p, craft, _metadata(plan[0] if plan else None, craft, equations, remade), every=every,
+        wanted, ocean, p, craft, _metadata(plan[0] if plan else None, craft, equations, how, remade), every=every,
         rtol=rtol, full=equations == "full", piece=piece, progress=progress, file=plan[1] if plan else None,
     )  # fmt: skip
     left = ocean.beyond(*flight.depths, float(flight.times[-1]))
     warnings = [*ocean.warnings, *wanted.warnings, *_warnings(flight, craft, wanted), *left]
+    if flight.depths[1] > DEEPEST:
+        warnings.append(
+            f"the flight goes down to {flight.depths[1]:.0f} m, deeper than any sea; bottom_m or a shorter duration "
+            "would end it"
+        )
     if ocean.stratified and not ocean.has_temperature and p.chi > 0.0:
         warnings.append("the water has no temperature: thermal expansion of the hull is left out")
     return Simulation(
@@ -259,10 +266,10 @@ def _ocean(
     )
 
 
-def _metadata(plan: Mission | None, craft: Vehicle, equations: str, remade: list[Path]) -> dict[str, str]:
-    """What a reader of the output should know."""
+def _metadata(plan: Mission | None, craft: Vehicle, equations: str, how: str, remade: list[Path]) -> dict[str, str]:
+    """What a reader of the output should know. how : the controls of a flight without a mission."""
     told = {
-        "title": plan.description if plan else f"{craft.name}, controls held",
+        "title": plan.description if plan else f"{craft.name}, {how}",
         "vehicle": craft.name,
         "vehicle_reference": craft.reference,
         "equations": equations,

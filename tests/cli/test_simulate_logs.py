@@ -179,3 +179,18 @@ def test_a_mission_flown_on_from_a_trim_begins_with_its_actuators(glider: Run, t
     first = pd.read_csv(tmp_path / "f.csv").iloc[0]
     assert (first["mass_position_m"], first["net_buoyancy_kg"]) == (0.4216, 0.3)
     assert first["mass_rotation_deg"] == pytest.approx(45.0)
+
+
+def test_controls_of_another_day_are_refused(glider: Run, flown: pd.DataFrame, tmp_path: Path) -> None:
+    later = flown.assign(time_utc=flown["time_utc"].str.replace("2020-05", "2021-05"))
+    later.to_csv(tmp_path / "later.csv", index=False)
+    for controls, initial, word in (("later", "flown", "365.0 days after"), ("flown", "later", "365.0 days before")):
+        done = glider("simulate", "--controls", f"{controls}.csv", "--initial", f"{initial}.csv")
+        one_line_error(done, f"{controls}.csv", word, "within a day")
+
+
+def test_a_depth_above_the_surface_is_told(glider: Run, tmp_path: Path) -> None:
+    (tmp_path / "i.csv").write_text("elapsed_s,depth_m,heading_deg\n0,-2,70\n1,1,70\n")
+    done = glider("simulate", *HELD, "--initial", "i.csv", "--duration", "10")
+    assert done.returncode == 0
+    assert "initial depth of -2 m is above the surface; taken is 0 m" in done.stderr

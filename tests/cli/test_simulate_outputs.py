@@ -99,7 +99,8 @@ def test_a_flight_is_drawn(glider: Run, tmp_path: Path, kind: str) -> None:
         assert "provenance" not in text.split("<defs>")[-1]
 
 
-def test_an_interruption_leaves_nothing_and_says_how_far_it_came(tmp_path: Path) -> None:
+@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
+def test_an_interruption_leaves_nothing_and_says_how_far_it_came(tmp_path: Path, by: signal.Signals) -> None:
     (tmp_path / "yo.toml").write_text(YO.format(duration=2592000.0))
     command = [str(GLIDER), "simulate", "yo.toml", "-o", "f.csv", "-o", "f.nc"]
     running = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -107,7 +108,7 @@ def test_an_interruption_leaves_nothing_and_says_how_far_it_came(tmp_path: Path)
         time.sleep(0.1)
         if any(path.name.endswith(".csv") and path.stat().st_size > 0 for path in tmp_path.glob(".f*")):
             break
-    running.send_signal(signal.SIGINT)
+    running.send_signal(by)
     out, error = running.communicate(timeout=60)
     assert running.returncode == 130
     assert out == ""
@@ -131,6 +132,11 @@ def test_current_in_time(glider: Run, tmp_path: Path) -> None:
         (head + "0,0,0,0\n0,500,0,0\n5,0,1,0\n", ("line 4", "only usable bin")),
         (head.replace("elapsed_s", "time_utc") + "2020-01-01,0,0,0\n2020-01-01,500,0,0\n2020-01-02,0,1,0\n"
          "2020-01-02,500,1,0\n", ("start_time",)),
+        (head + "0,0,0,0\n0,500,0,0\nnan,0,1,0\nnan,500,1,0\n", ("line 4", "elapsed_s = nan", "number of seconds")),
+        (head + ",0,0,0\n0,500,0,0\n", ("line 2", "elapsed_s = empty")),
+        (head.replace("elapsed_s", "time_utc") + "once,0,0,0\nonce,500,0,0\n", ("line 2", "time_utc = once", "ISO 8601")),
+        ("time_utc," + head + "2020-01-01T00:00,0,0,0,0\n2020-01-01T00:00,0,500,0,0\n2020-01-01T00:10,60,0,0,0\n"
+         "2020-01-01T00:10,60,500,0,0\n", ("line 4", "elapsed_s and time_utc contradict each other")),
     ):  # fmt: skip
         (tmp_path / "bad.csv").write_text(text)
         one_line_error(glider("simulate", *HELD, "--adcp", "bad.csv"), "bad.csv", *words)
@@ -139,3 +145,20 @@ def test_current_in_time(glider: Run, tmp_path: Path) -> None:
 def test_a_profile_of_one_point_is_refused(glider: Run, tmp_path: Path) -> None:
     (tmp_path / "c.csv").write_text("depth_m,density_kg_m3\n5,1025\n")
     one_line_error(glider("simulate", *HELD, "--ctd", "c.csv"), "c.csv", "line 2", "at least two")
+
+
+def test_a_link_stays_and_what_it_points_to_is_replaced(glider: Run, tmp_path: Path) -> None:
+    (tmp_path / "kept.csv").touch()
+    (tmp_path / "link.csv").symlink_to("kept.csv")
+    assert glider("simulate", *HELD, "--duration", "10", "-o", "link.csv", "--force").returncode == 0
+    assert (tmp_path / "link.csv").is_symlink()
+    assert len(pd.read_csv(tmp_path / "kept.csv")) == 11
+
+
+def test_standard_output_takes_one_document(glider: Run) -> None:
+    one_line_error(glider("simulate", *HELD, "-o", "-", "-o", "-"), "twice")
+
+
+def test_a_time_that_alone_makes_too_many_samples_is_refused_at_once(glider: Run, tmp_path: Path) -> None:
+    (tmp_path / "long.toml").write_text('name = "l"\ndescription = "l"\n[[leg]]\nkind = "drift"\nduration_s = 1e8\n')
+    one_line_error(glider("simulate", "long.toml", "-o", "f.csv"), "1e+08 s by 1 s", "allowed 1e+07")
