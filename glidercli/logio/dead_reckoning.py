@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from glidercli.channels import PHASES
 from glidercli.log import Channel, Log
 from glidercli.logio.derived import LONGEST_GAP
+from glidercli.places import track_of_geodetic
 from glidercli.units import DEGREE
 
 __all__ = ["with_track"]
@@ -75,8 +76,6 @@ def _closed(
     log: Log, times: NDArray[np.int64], z: Array, north: Array, east: Array, notes: list[str]
 ) -> tuple[Array, Array, dict[str, str]]:
     """The track moved so that it passes through every fix, the closure spread linearly in time between fixes."""
-    import pymap3d
-
     latitude, longitude = log["latitude"], log["longitude"]
     every = np.intersect1d(latitude.time_ns, longitude.time_ns)
     fixed = np.intersect1d(every, times)
@@ -86,7 +85,7 @@ def _closed(
     if len(fixed) == 0:
         notes.append("no GPS fix at the times of the track: not corrected for current")
         return north, east, {}
-    east_fix, north_fix, _ = pymap3d.geodetic2enu(lat, lon, 0.0, lat[0], lon[0], 0.0)
+    north_fix, east_fix = track_of_geodetic(lat, lon, lat[0], lon[0])
     at = np.searchsorted(times, fixed)
     miss_north, miss_east = north_fix - north[at], east_fix - east[at]
     for i in [i for i in range(len(at) - 1) if z[at[i] : at[i + 1]].max() >= LEAST_DIVE]:

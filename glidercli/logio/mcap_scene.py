@@ -32,6 +32,7 @@ from glidercli.logio.mcap_messages import (
     slot,
     timestamp,
 )
+from glidercli.places import geodetic_of_track
 
 __all__ = ["remarks", "scene_topics"]
 
@@ -187,10 +188,8 @@ def _map_track(log: Log, start_ns: int) -> list[Messages]:
     way, fixes = _sampled(log, "north", "east"), _sampled(log, "latitude", "longitude")
     latitude_0, longitude_0 = number(log, "origin_latitude_deg"), number(log, "origin_longitude_deg")
     if way is not None and latitude_0 is not None and longitude_0 is not None:
-        import pymap3d
-
         north, east = (column[_thinned(len(column))] for column in way[1])
-        latitude, longitude, _ = pymap3d.enu2geodetic(east, north, 0.0, latitude_0, longitude_0, 0.0)
+        latitude, longitude = geodetic_of_track(north, east, latitude_0, longitude_0)
     elif fixes is not None:
         latitude, longitude = (column[_thinned(len(column))] for column in fixes[1])
     else:

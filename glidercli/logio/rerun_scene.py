@@ -12,6 +12,7 @@ from glidercli.frames import quaternion_from_euler_arrays
 from glidercli.log import Log
 from glidercli.logio import rerun_blueprint as look
 from glidercli.logio.drawable import hull_size, number, together
+from glidercli.places import track_of_geodetic
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
@@ -104,10 +105,8 @@ class Scene:
         unplaced = None in told and len(self.times)
         if unplaced or not len(latitude) or self.log["latitude"].origin != "measured":
             return np.empty((0, 3))
-        from pymap3d import geodetic2ned
-
         origin = [latitude[0], longitude[0]] if None in told else told
-        north, east, _ = geodetic2ned(latitude, longitude, 0.0, *origin, 0.0)
+        north, east = track_of_geodetic(latitude, longitude, *origin)
         return np.stack([north, east, np.zeros_like(north)], axis=-1)
 
     def _draw_track(self) -> list[str]:

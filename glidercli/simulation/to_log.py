@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from glidercli.channels import PHASES
 from glidercli.frames import euler_from_quaternion_arrays
 from glidercli.log import Channel, Event, Log
+from glidercli.places import geodetic_of_track
 from glidercli.simulation.flight import Flight
 from glidercli.simulation.sampling import COLUMNS
 
@@ -69,7 +70,7 @@ def to_log(
         values["current_north"], values["current_east"] = column["current_north"], column["current_east"]
         values["current_up"] = 0.0 - column["current_down"]  # -0.0 for none would show
     if place is not None:
-        values["latitude"], values["longitude"] = _geodetic(values, place)
+        values["latitude"], values["longitude"] = geodetic_of_track(values["north"], values["east"], *place)
     undefined = {"angle_of_attack", "sideslip"}  # no flow, no angle: a vehicle at rest has neither
     channels = {
         name: Channel(name, time_ns[moving], given[moving], "simulated")
@@ -91,11 +92,3 @@ def with_events(log: Log, flight: Flight, start_ns: int | None) -> Log:
     found = [Event("start", start, flight.start_depth)]
     found += [Event(e.name, start + round(e.time * 1e9), e.depth) for e in flight.events]
     return dataclasses.replace(log, events=tuple(sorted(found, key=lambda event: event.time_ns)))
-
-
-def _geodetic(values: Mapping[str, Array], place: tuple[float, float]) -> tuple[Array, Array]:
-    """Latitude and longitude, deg, of the track north, east, down of a place on the WGS-84 ellipsoid."""
-    import pymap3d
-
-    latitude, longitude, _ = pymap3d.ned2geodetic(values["north"], values["east"], values["down"], *place, 0.0)
-    return np.asarray(latitude), np.asarray(longitude)

@@ -6,15 +6,15 @@ import math
 import re
 
 import numpy as np
-import pymap3d
 import pytest
 
 from glidercli.log import Channel, Log
 from glidercli.logio.dead_reckoning import with_track
+from glidercli.places import geodetic_of_track
 
 TIMES = np.arange(0, 1001, 10, dtype=np.int64) * 10**9
-PLANE = 1e-5
-"""m; a fix lies on the ellipsoid, 2 cm below the tangent plane at 500 m: 500 m x 2 cm / 6371 km = 1.6e-6 m sideways."""
+PLACED = 1e-6
+"""m; a double holds degrees to 3e-14, which is 3e-9 m."""
 
 
 def log_of(heading: float, **extra: Channel) -> Log:
@@ -39,10 +39,10 @@ def test_constant_glide(heading_deg: float) -> None:
 
 def test_the_track_passes_through_the_fixes() -> None:
     ends = TIMES[[0, -1]]
-    lat, lon, _ = pymap3d.ned2geodetic(np.array([0.0, 500.0]), np.array([0.0, -80.0]), 0.0, 48.9, -130.6, 0.0)
+    lat, lon = geodetic_of_track([0.0, 500.0], [0.0, -80.0], 48.9, -130.6)
     track = with_track(log_of(0.0, latitude=Channel("latitude", ends, lat), longitude=Channel("longitude", ends, lon)))
-    assert track["north"].values[-1] == pytest.approx(500.0, abs=PLANE)
-    assert track["east"].values[-1] == pytest.approx(-80.0, abs=PLANE)
+    assert track["north"].values[-1] == pytest.approx(500.0, abs=PLACED)
+    assert track["east"].values[-1] == pytest.approx(-80.0, abs=PLACED)
     assert "depth-averaged current" in track.metadata["track_note"]
     assert float(track.metadata["origin_latitude_deg"]) == pytest.approx(48.9)
 
@@ -77,13 +77,13 @@ def test_a_square_in_a_current_with_a_fix_at_each_corner() -> None:
     north = np.concatenate([[0.0], np.cumsum(way * np.cos(heading[1:]))]) + current_north * carried
     east = np.concatenate([[0.0], np.cumsum(way * np.sin(heading[1:]))]) + current_east * carried
     corners = np.array([0, *(leg * (steps + 1) for leg in range(1, legs)), samples - 1])
-    lat, lon, _ = pymap3d.ned2geodetic(north[corners], east[corners], 0.0, 48.9, -130.6, 0.0)
+    lat, lon = geodetic_of_track(north[corners], east[corners], 48.9, -130.6)
     values = {"depth": depth, "pitch": pitch, "heading": heading}
     channels = {name: Channel(name, times, value) for name, value in values.items()}
     channels["latitude"] = Channel("latitude", times[corners], lat)
     channels["longitude"] = Channel("longitude", times[corners], lon)
     track = with_track(Log(channels, "measured"))
-    np.testing.assert_allclose(track["north"].values, north, atol=PLANE, rtol=0.0)
-    np.testing.assert_allclose(track["east"].values, east, atol=PLANE, rtol=0.0)
+    np.testing.assert_allclose(track["north"].values, north, atol=PLACED, rtol=0.0)
+    np.testing.assert_allclose(track["east"].values, east, atol=PLACED, rtol=0.0)
     found = re.findall(r"current of (\S+) m/s east, (\S+) m/s north", track.metadata["track_note"])
     assert found == [("-0.100", "0.050")] * legs
