@@ -30,6 +30,7 @@ _CSV_COLUMNS = (
 _EXPECTED = f"a CTD cast is a Sea-Bird .cnv file or a table with the columns {_CSV_COLUMNS}"
 _SALT = ("salinity", "absolute_salinity_g_kg", "conductivity_S_m")
 _NEEDED = ("depth_m", "pressure_dbar", "temperature_degC", *_SALT, "density_kg_m3")
+_ELSEWHERE = 1.0  # deg between the latitude of a cast and that of a flight, worth a word
 _USED = (*_NEEDED, "latitude_deg", "longitude_deg")
 _CONDUCTIVITY = (0.0, 10.0)  # S/m; the saltiest warm sea has 7
 _DENSITY = (990.0, 1100.0)  # kg/m3 in situ: fresh at 45 degC to brine in the deepest trench
@@ -78,10 +79,18 @@ class Cast:
 
 @dataclass(frozen=True)
 class _Place:
-    """Where a cast was taken; ``used`` is the latitude that formulas get when it is not known."""
+    """Where a cast was taken; ``used`` is the latitude that formulas get when it is not known.
 
-    latitude: float | None
+    given : latitude that the caller gave, deg, for a cast that tells none of its own.
+    """
+
+    own_latitude: float | None
     longitude: float | None
+    given: float | None
+
+    @property
+    def latitude(self) -> float | None:
+        return self.given if self.own_latitude is None else self.own_latitude
 
     @property
     def used(self) -> float:
@@ -90,6 +99,8 @@ class _Place:
     def warnings(self, missing: str | None, salinity_used: bool) -> tuple[str, ...]:
         """What is not known, and how much that matters. missing : "depth" or "pressure" where it had to be computed."""
         lines = []
+        if None not in (self.own_latitude, self.given) and abs(self.used - (self.given or 0.0)) > _ELSEWHERE:
+            lines.append(f"its own latitude, {self.used:g} deg, is used for it, not the {self.given:g} deg given")
         if self.latitude is None and missing == "depth":
             lines.append(
                 "latitude unknown, 0 deg is used: depth for a pressure is too great by up to 0.53 % "
@@ -100,9 +111,11 @@ class _Place:
                 "latitude unknown, 0 deg is used: pressure for a depth is too small by up to 0.53 % "
                 "(5.4 dbar at 1000 m, at the poles)"
             )
-        if (self.longitude is None or self.latitude is None) and salinity_used:
+        told = (("latitude", self.latitude), ("longitude", self.longitude))
+        unknown = " and ".join(name for name, value in told if value is None)
+        if unknown and salinity_used:
             lines.append(
-                "without latitude and longitude absolute salinity is the reference salinity: density is too small by "
+                f"without {unknown} absolute salinity is the reference salinity: density is too small by "
                 "up to 0.02 kg/m3 in the open ocean"
             )
         return tuple(lines)
@@ -148,7 +161,7 @@ def read_ctd(path: str | Path, latitude: float | None = None) -> Cast:
 def _from_cnv(path: Path, text: str, latitude: float | None) -> Cast:
     """The last descent of a .cnv file."""
     file = parse_cnv(path, text)
-    place = _Place(latitude if file.latitude is None else file.latitude, file.longitude)
+    place = _Place(file.latitude, file.longitude, latitude)
     recorded = samples(file, place.used)
     kept, dropped, warnings = downcast(recorded)
     if file.unreadable:
@@ -190,7 +203,7 @@ def _from_table(table: Table, latitude: float | None) -> Cast:
     whole = table
     table, dropped = _complete(whole)
     own_latitude = _constant(table, "latitude_deg", -90.0, 90.0)
-    place = _Place(latitude if own_latitude is None else own_latitude, _constant(table, "longitude_deg", -180.0, 360.0))
+    place = _Place(own_latitude, _constant(table, "longitude_deg", -180.0, 360.0), latitude)
     depth, pressure = _axes(table, place)
     temperature = _column(table, "temperature_degC", TEMPERATURE)
     salinity = _column(table, "salinity", SALINITY)

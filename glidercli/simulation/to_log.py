@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 EPOCH_NS = 946_684_800 * 10**9
 """2000-01-01, start of a flight that states none: an arbitrary date, the same for every run, and the log says so."""
 
+_STILL = 1e-12  # m/s; rounding of a vehicle that lies on the bottom
+
 _DIRECT = (
     "north", "east", "down", "u", "v", "w", "p", "q", "r", "vertical_speed", "mass_position", "mass_rotation",
     "net_buoyancy", "density",
@@ -58,10 +60,12 @@ def to_log(
     values["sideslip"] = np.arcsin(
         np.clip(np.divide(values["v"], speed, out=np.zeros_like(speed), where=moving), -1, 1)
     )
-    sinking = values["vertical_speed"] >= 0.0
-    phase = np.where(sinking, PHASES.index("dive"), PHASES.index("climb"))
-    afloat = (values["depth"] <= 0.0) & ~moving
-    values["phase"] = np.where(afloat, PHASES.index("surface"), phase).astype(float)
+    phase = np.select(
+        [(values["depth"] <= 0.0) & ~moving, np.abs(values["vertical_speed"]) < _STILL, values["vertical_speed"] > 0.0],
+        [PHASES.index(name) for name in ("surface", "hover", "dive")],
+        PHASES.index("climb"),
+    )
+    values["phase"] = phase.astype(float)
     if stratified:
         values["pressure"] = column["pressure"]
     if has_temperature:
