@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -122,6 +123,8 @@ def simulate(
         The motion cannot be integrated.
     """
     from glidercli.model.parameters import parameters
+    from glidercli.ocean.cast import read_casts
+    from glidercli.ocean.current import read_currents
     from glidercli.ocean.ocean import Ocean
     from glidercli.simulation.mission_file import load_mission
     from glidercli.simulation.task import task
@@ -131,13 +134,15 @@ def simulate(
         raise InputError("equations", f"{equations!r} is not allowed; full or paper")
     plan = load_mission(mission) if mission is not None else None
     given_files = list(inputs)
+    asked = {} if plan is None else {"vehicle": vehicle is None, "ctd": ctd is None, "adcp": adcp is None}
     if plan:
         beside = plan[1].parent
         ctd = ctd or (beside / plan[0].ctd if plan[0].ctd else None)
         adcp = adcp or (beside / plan[0].adcp if plan[0].adcp else None)
     if vehicle is None:
         vehicle = _vehicle_of(plan)
-    craft = vehicle if isinstance(vehicle, Vehicle) else load_vehicle(vehicle)
+    with _for_mission(plan, asked, "vehicle"):
+        craft = vehicle if isinstance(vehicle, Vehicle) else load_vehicle(vehicle)
     p = parameters(craft)
     if plan and plan[0].neutral_density_kg_m3:
         p = p._replace(rho_0=plan[0].neutral_density_kg_m3)
@@ -155,7 +160,14 @@ def simulate(
     _check_samples(wanted.duration if math.isfinite(wanted.duration) else least, every)
     if latitude is None:
         latitude = plan[0].latitude if plan else wanted.place[0] if wanted.place else None
-    ocean = _ocean(Ocean, p.rho_0, p.T_0, ctd, adcp, latitude, wanted.start_ns)
+    with _for_mission(plan, asked, "ctd"):
+        casts = read_casts(ctd, latitude) if ctd else ()
+    with _for_mission(plan, asked, "adcp"):
+        currents = read_currents(adcp) if adcp else ()
+    ocean = Ocean.build(
+        p.rho_0, casts=casts, currents=currents, latitude=latitude, temperature_reference=p.T_0,
+        start_ns=wanted.start_ns,
+    )  # fmt: skip
     how = "recorded controls" if controls else "controls held"
     remade = list(dict.fromkeys([*ocean.reconstructed, *wanted.reconstructed]))
     flight, log = _flown(
@@ -221,6 +233,15 @@ def _flown(
     return flight, with_events(logged(flight.times, flight.samples), flight, wanted.start_ns)
 
 
+@contextlib.contextmanager
+def _for_mission(plan: tuple[Mission, Path] | None, asked: Mapping[str, bool], key: str) -> Iterator[None]:
+    """Name the mission that asks for a file which cannot be used. asked : whether it is the mission that does."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(plan[1], f"{key}: {error}") if plan and asked[key] else error from None
+
+
 def _check_numbers(duration: float | None, start_depth: float | None, every: float, rtol: float) -> None:
     for name, value, least in (("duration", duration, 1e-3), ("every", every, 1e-3)):
         if value is not None and not (math.isfinite(value) and value >= least):
@@ -246,24 +267,6 @@ def _vehicle_of(plan: tuple[Mission, Path] | None) -> str:
         return "seawing"
     mission, path = plan
     return str(path.parent / mission.vehicle) if mission.vehicle.endswith(".toml") else mission.vehicle
-
-
-def _ocean(
-    kind: type[Ocean], density: float, temperature: float, ctd: Any, adcp: Any, latitude: float | None,
-    start_ns: int | None,
-) -> Ocean:  # fmt: skip
-    """The water of a flight: uniform without a cast, else TEOS-10 density from it; and the current."""
-    from glidercli.ocean.cast import read_casts
-    from glidercli.ocean.current import read_currents
-
-    return kind.build(
-        density,
-        casts=read_casts(ctd, latitude) if ctd else (),
-        currents=read_currents(adcp) if adcp else (),
-        latitude=latitude,
-        temperature_reference=temperature,
-        start_ns=start_ns,
-    )
 
 
 def _metadata(plan: Mission | None, craft: Vehicle, equations: str, how: str, remade: list[Path]) -> dict[str, str]:
