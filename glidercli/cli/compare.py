@@ -49,6 +49,7 @@ def compare(
 ) -> None:
     """Errors of a simulation by channel and phase, or its verdicts on published values."""
     from glidercli.cli.printing import json_text, say, warn
+    from glidercli.cli.progress import progress
     from glidercli.compare import SUFFIXES, matching, write
     from glidercli.compare import compare as compared
     from glidercli.compare.align import MOST_OFFSET
@@ -67,33 +68,35 @@ def compare(
     files = [path for path in output or [] if path != Path("-")]
     check_outputs(files, SUFFIXES, force)
 
-    facts = _facts_file(measured)
-    inputs: list[Path] = []
-    against: Log | Facts
-    if facts is not None:
-        from glidercli.compare import read_facts
+    with progress("reading", "", quiet) as bar:
+        facts = _facts_file(measured)
+        inputs: list[Path] = []
+        against: Log | Facts
+        if facts is not None:
+            from glidercli.compare import read_facts
 
-        against = read_facts(facts)
-        inputs.append(facts)
-        if align != Align.NONE or offset:
-            warn(["--align and --offset have no effect on a comparison with published values"], quiet)
-    else:
-        against = _log(measured, inputs, quiet)
-    logs = [_log(name, inputs, quiet) for name in simulated]
-    check_not_inputs(files, inputs)
-    comparison = compared(
-        against,
-        logs,
-        align=align.value,
-        offset=offset,
-        max_gap=max_gap,
-        channels=channels,
-        names=[measured, *simulated],
-    )
-    recorded = [run.side for run in comparison.runs if run.side.origin in ("measured", "derived")]
-    warn([f"{side.name} is {side.origin}, and stands here as a simulation" for side in recorded], quiet)
-    record = provenance(inputs=dict.fromkeys(inputs), origin=comparison.origin)
-    write(comparison, *files, provenance=record, force=force)
+            against = read_facts(facts)
+            inputs.append(facts)
+            if align != Align.NONE or offset:
+                warn(["--align and --offset have no effect on a comparison with published values"], quiet)
+        else:
+            against = _log(measured, inputs, quiet)
+        logs = [_log(name, inputs, quiet) for name in simulated]
+        bar.stage("comparing")
+        check_not_inputs(files, inputs)
+        comparison = compared(
+            against,
+            logs,
+            align=align.value,
+            offset=offset,
+            max_gap=max_gap,
+            channels=channels,
+            names=[measured, *simulated],
+        )
+        recorded = [run.side for run in comparison.runs if run.side.origin in ("measured", "derived")]
+        warn([f"{side.name} is {side.origin}, and stands here as a simulation" for side in recorded], quiet)
+        record = provenance(inputs=dict.fromkeys(inputs), origin=comparison.origin)
+        write(comparison, *files, provenance=record, force=force)
     for path in files:
         say(f"wrote {path}", quiet)
     print(json_text(comparison.document()) if json or Path("-") in (output or []) else comparison.text())

@@ -5,58 +5,80 @@ from __future__ import annotations
 import contextlib
 import math
 import sys
-import time
-from collections.abc import Callable, Iterator
+import threading
+from collections.abc import Iterator
 from typing import Any
 
 from glidercli.errors import Interrupted
 
-__all__ = ["progress"]
+__all__ = ["Bar", "progress"]
 
 _AFTER = 2.0  # s
 
 
-class _Bar:
-    """What was done so far, and the bar that shows it; silent where stderr is no terminal."""
+class Bar:
+    """What is being done, how much of it is done, and the bar that shows it; silent where stderr is no terminal."""
 
-    def __init__(self, what: str, quiet: bool) -> None:
-        self._what, self._silent = what, quiet or not sys.stderr.isatty()
-        self._began = time.monotonic()
-        self._bar: Any = None
+    def __init__(self, what: str, unit: str, quiet: bool) -> None:
+        self._what, self._unit = what, unit
+        self._done, self._whole = 0.0, math.inf
+        self._shown: Any = None
         self._task: Any = None
-        self.done, self.whole = 0.0, math.inf
+        self._lock = threading.Lock()
+        self._timer = threading.Timer(_AFTER, self._show)
+        self._timer.daemon = True
+        if not quiet and sys.stderr.isatty():
+            self._timer.start()
 
     def tell(self, done: float, whole: float) -> None:
         """So much is done of the whole (infinite: not known)."""
-        self.done, self.whole = done, whole
-        if self._silent or time.monotonic() - self._began < _AFTER:
-            return
-        if self._bar is None:
-            from rich.console import Console
-            from rich.progress import Progress
+        self._done, self._whole = done, whole
+        self._update()
 
-            self._bar = Progress(console=Console(stderr=True), transient=True)
-            self._bar.start()
-            self._task = self._bar.add_task(self._what, total=whole if math.isfinite(whole) else None)
-        self._bar.update(self._task, completed=done)
+    def stage(self, what: str) -> None:
+        """Something else is done now, of unknown length."""
+        self._what, self._unit, self._done, self._whole = what, "", 0.0, math.inf
+        self._update()
 
     def stop(self) -> None:
         """Take the bar away."""
-        if self._bar is not None:
-            self._bar.stop()
+        self._timer.cancel()
+        with self._lock:
+            if self._shown is not None:
+                self._shown.stop()
+
+    def interrupted(self) -> Interrupted:
+        """The error that says how far it came."""
+        of = f" of {self._whole:,.0f}" if math.isfinite(self._whole) else ""
+        far = f" after {self._done:,.0f}{of} {self._unit}" if self._unit else ""
+        return Interrupted(f"{self._what} was interrupted{far}; nothing was written")
+
+    def _show(self) -> None:
+        from rich.console import Console
+        from rich.progress import Progress
+
+        with self._lock:
+            self._shown = Progress(console=Console(stderr=True), transient=True)
+            self._task = self._shown.add_task(self._what)
+            self._shown.start()
+        self._update()
+
+    def _update(self) -> None:
+        if self._task is not None:
+            whole = self._whole if math.isfinite(self._whole) else None
+            self._shown.update(self._task, description=self._what, completed=self._done, total=whole)
 
 
 @contextlib.contextmanager
-def progress(what: str, unit: str, quiet: bool) -> Iterator[Callable[[float, float], None]]:
-    """A function that is told how much is done and how much there is to do (infinite: not known), in a unit.
+def progress(what: str, unit: str, quiet: bool) -> Iterator[Bar]:
+    """A bar for what is done in the block; ``what`` is counted in a unit, as "points".
 
     An interruption from the keyboard becomes an error that says how far it came.
     """
-    bar = _Bar(what, quiet)
+    bar = Bar(what, unit, quiet)
     try:
-        yield bar.tell
+        yield bar
     except KeyboardInterrupt:
-        of = f" of {bar.whole:,.0f}" if math.isfinite(bar.whole) else ""
-        raise Interrupted(f"{what} was interrupted after {bar.done:,.0f}{of} {unit}; nothing was written") from None
+        raise bar.interrupted() from None
     finally:
         bar.stop()

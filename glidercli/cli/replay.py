@@ -28,12 +28,17 @@ def replay(
     """Recorded field logs: what they hold, and into MCAP, Rerun and CSV."""
     from glidercli.cli.outputs import check_log_outputs, write_log
     from glidercli.cli.printing import json_text, say, warn
+    from glidercli.cli.progress import progress
     from glidercli.logio import replay as play
 
     outputs = output or []
     check_log_outputs(outputs, force, json)
     files = [path for path in outputs if path != Path("-")]
-    played = play(log, files, format=format, start=start, end=end, strict=strict, force=force)
+    with progress("reading", "files", quiet) as bar:
+        played = play(
+            log, files, format=format, start=start, end=end, strict=strict, force=force, progress=bar.tell,
+            stage=bar.stage,
+        )  # fmt: skip
     warn((f"{report.path}: {report.error}" for report in played.broken), quiet)
     for path in files:
         say(f"wrote {path}", quiet)

@@ -71,7 +71,7 @@ def simulate(
     first = None if trim is None else read_trim(trim)
     files = [*logs.files, *([trim] if trim and str(trim) != "-" else [])]
     tell_of_compiling(lambda name: _say_compiling(name, quiet))
-    with progress("the flight", "s", quiet) as told, log_sink(outputs, force) as sink:
+    with progress("the flight", "s", quiet) as bar, log_sink(outputs, force) as sink:
         flown = fly(
             mission,
             vehicle=vehicle,
@@ -92,10 +92,11 @@ def simulate(
             outputs=outputs,
             inputs=files,
             piece=sink.piece,
-            progress=told,
+            progress=bar.tell,
         )
         origin = "simulated, from a reconstruction" if "reconstruction" in flown.log.metadata else "simulated"
         log = flown.log.with_metadata(provenance=provenance_json(inputs=flown.inputs, origin=origin))
+        bar.stage("writing")
         sink.finish(log)
     warn([*logs.warnings, *flown.warnings], quiet)
     sink.say(quiet)

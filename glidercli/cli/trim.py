@@ -12,6 +12,7 @@ import typer
 from glidercli.cli.options import Debug, Equations, Force, Json, Quiet, Vehicle, output_option
 
 if TYPE_CHECKING:
+    from glidercli.cli.progress import Bar
     from glidercli.trim import Trim
     from glidercli.trim.output import Answer
     from glidercli.trim.recursion import Recursion
@@ -94,6 +95,7 @@ def trim(
 ) -> None:
     """Steady flight: a straight glide or a spiral, from any three of the ten quantities that describe it."""
     from glidercli.cli.printing import json_text, say, warn
+    from glidercli.cli.progress import progress
     from glidercli.errors import UsageError
     from glidercli.files import check_not_inputs, check_outputs
     from glidercli.pictures import PICTURES
@@ -136,16 +138,18 @@ def trim(
     if pictures and not polar and not 1 <= len(sweep or []) <= 2:
         raise UsageError(f"-o {pictures[0]}: a picture shows one --sweep, two, or --polar; else {' '.join(TABLES)}")
 
-    if polar:
-        answer, warnings, text = _polar(vehicle, pins, journey, form)
-    elif sweep:
-        answer, warnings, text = _sweep(vehicle, pins, sweep, form, linearize)
-    elif by_recursion:
-        answer, warnings, text = _recursion(vehicle, pins, method, linearize, trace)
-    else:
-        answer, warnings, text = _root(vehicle, pins, form, linearize)
+    with progress("the search", "points" if sweep else "", quiet) as bar:
+        if polar:
+            answer, warnings, text = _polar(vehicle, pins, journey, form)
+        elif sweep:
+            answer, warnings, text = _sweep(vehicle, pins, sweep, form, linearize, bar)
+        elif by_recursion:
+            answer, warnings, text = _recursion(vehicle, pins, method, linearize, trace)
+        else:
+            answer, warnings, text = _root(vehicle, pins, form, linearize)
+        bar.stage("writing")
+        write(answer, *files, record=provenance(inputs=inputs, origin="computed"), force=force)
     warn(warnings, quiet)
-    write(answer, *files, record=provenance(inputs=inputs, origin="computed"), force=force)
     for path in files:
         say(f"wrote {path}", quiet)
     print(json_text(answer.document()) if json or stdout else text)
@@ -203,7 +207,7 @@ def _answered(found: list[Trim], linearize: bool) -> _Told:
     return Answer(columns, [finite(row) for row in rows], {}, None), warnings, several_trims(rows)
 
 
-def _sweep(vehicle: str, pins: dict[str, float], texts: list[str], form: Equations, linearize: bool) -> _Told:
+def _sweep(vehicle: str, pins: dict[str, float], texts: list[str], form: Equations, linearize: bool, bar: Bar) -> _Told:
     """A sweep of one pin or more: every point's trims, and the points that have none."""
     from glidercli.cli.trim_text import rows_text
     from glidercli.trim import sweep
@@ -214,7 +218,7 @@ def _sweep(vehicle: str, pins: dict[str, float], texts: list[str], form: Equatio
     from glidercli.trim.sweeping import axis
 
     axes = tuple(axis(text) for text in texts)
-    found = sweep(vehicle, axes, equations=form.value, linearize=linearize, **pins)
+    found = sweep(vehicle, axes, equations=form.value, linearize=linearize, progress=bar.tell, **pins)
     missing = [{**found.at(number), "reason": reason} for number, reason in sorted(found.missing.items())]
     columns = {**found.table, "solution": found.solution}
     rows = None

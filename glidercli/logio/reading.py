@@ -57,10 +57,15 @@ COMPANIONS = (".md", ".rst", ".txt", ".toml", ".json", ".py", ".png", ".svg", ".
 """Endings of what stands in a folder beside logs: notes, settings, pictures, outputs that are not read back."""
 
 
-def read(paths: Sequence[str | Path], format: str | None = None) -> Reading:
+def read(
+    paths: Sequence[str | Path],
+    format: str | None = None,
+    progress: Callable[[float, float], None] | None = None,
+) -> Reading:
     """The Log of files, folders and quoted globs, with what can be derived, and an account of every file.
 
     format : read every file as this format, whatever it looks like.
+    progress : is told the files read and the files to read.
 
     Raises
     ------
@@ -74,7 +79,9 @@ def read(paths: Sequence[str | Path], format: str | None = None) -> Reading:
     files = _files(paths)
     parts: list[tuple[Log, FileReport]] = []
     reports = []
-    for path in files:
+    for number, path in enumerate(files):
+        if progress is not None:
+            progress(number, len(files))
         try:
             log, report = _read_one(path, format)
             if log.channels:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -74,6 +74,8 @@ def replay(
     end: str | None = None,
     strict: bool = False,
     force: bool = False,
+    progress: Callable[[float, float], None] | None = None,
+    stage: Callable[[str], None] | None = None,
 ) -> Replay:
     """Read logs, account for every record, and write the outputs.
 
@@ -83,10 +85,11 @@ def replay(
     format : read every file as this format.
     start, end : ISO 8601 UTC, or seconds since the log's first sample; the part with start <= time < end is taken.
     strict : a file that cannot be read, or not as a whole, is an InputError, and nothing is written.
+    progress : is told the files read and the files to read. stage : is told what is done after that.
     """
     targets = [Path(path) for path in outputs]
     check_outputs(targets, SUFFIXES, force)
-    reading = read(paths, format)
+    reading = read(paths, format, progress)
     log = reading.log
     broken = [report for report in reading.files if report.error is not None]
     if strict and broken:
@@ -102,6 +105,8 @@ def replay(
     check_not_inputs(targets, [report.path for report in reading.files])
     inputs = [report.path for report in reading.files if report.kept]
     log = log.with_metadata(provenance=provenance_json(inputs=inputs, origin=log.origin))
+    if stage is not None and targets:
+        stage("writing")
     write(log, *targets, force=force)
     return Replay(log, reading.files, tuple(targets))
 

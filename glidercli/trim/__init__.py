@@ -84,17 +84,24 @@ def trims(
 
 
 def sweep(
-    vehicle: Vehicle | str, axes: Sequence[Axis], *, equations: str = "full", linearize: bool = False, **pins: float
+    vehicle: Vehicle | str,
+    axes: Sequence[Axis],
+    *,
+    equations: str = "full",
+    linearize: bool = False,
+    progress: Callable[[float, float], None] | None = None,
+    **pins: float,
 ) -> TrimMap:
     """Every steady flight at every point of a grid: axes are swept, pins are held; together three.
 
     vehicle, equations, pins : as for ``trims``. axes : names and values, SI and rad. linearize : whether the linear
-    model of each is wanted. Raises as ``trims`` does; InputError also for more than a million points.
+    model of each is wanted. progress : is told the points searched and the points to search. Raises as ``trims`` does;
+    InputError also for more than a million points.
     """
     from glidercli.trim.sweeping import trims_over
 
     craft, p, water = _setting(vehicle, equations)
-    return trims_over(tuple(axes), pins, craft, equations, water, p, linearize=linearize)
+    return trims_over(tuple(axes), pins, craft, equations, water, p, linearize=linearize, progress=progress)
 
 
 def polar(

@@ -6,7 +6,7 @@ import concurrent.futures
 import math
 import os
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -114,11 +114,11 @@ def axis(text: str) -> Axis:
 
 def trims_over(
     axes: tuple[Axis, ...], fixed: Mapping[str, float], craft: Vehicle, equations: str, water: Water, p: Parameters,
-    *, linearize: bool = False,
+    *, linearize: bool = False, progress: Callable[[float, float], None] | None = None,
 ) -> TrimMap:  # fmt: skip
     """Every trim at every point of a grid. axes and fixed : three pins in all, SI and rad.
 
-    linearize : whether the linear model of each is wanted.
+    linearize : whether the linear model of each is wanted. progress : is told the points searched and those to search.
 
     Raises
     ------
@@ -136,7 +136,7 @@ def trims_over(
     if count > MOST_POINTS:
         shape = " x ".join(f"{len(one.values):,}" for one in axes)
         raise InputError("--sweep", f"{shape} = {count:,} points; at most {MOST_POINTS:,} are allowed")
-    found, missing = _solved(axes, fixed, craft, equations == "paper", water, p)
+    found, missing = _solved(axes, fixed, craft, equations == "paper", water, p, progress)
     if not len(found.x):
         reasons = sorted(set(missing.values()))
         raise NoSolutionError(f"none of the {count:,} points of the sweep has a trim: {'; '.join(reasons)}")
@@ -198,8 +198,9 @@ def _joined(parts: list[_Found]) -> _Found:
 
 
 def _solved(
-    axes: tuple[Axis, ...], fixed: Mapping[str, float], craft: Vehicle, printed: bool, water: Water, p: Parameters
-) -> tuple[_Found, dict[int, str]]:
+    axes: tuple[Axis, ...], fixed: Mapping[str, float], craft: Vehicle, printed: bool, water: Water, p: Parameters,
+    progress: Callable[[float, float], None] | None,
+) -> tuple[_Found, dict[int, str]]:  # fmt: skip
     """Every glide at every point, and why other points have none."""
     count = math.prod(len(one.values) for one in axes)
     grids = np.meshgrid(*(one.values for one in axes), indexing="ij")
@@ -209,12 +210,20 @@ def _solved(
         raise InputError("--sweep", "an empty sweep has no points")
     reason = _impossible(axes, pinned, craft)
     parts = []
+    searched = 0
+
+    def seen(points: int) -> None:
+        nonlocal searched
+        searched += points
+        if progress is not None:
+            progress(searched, count)
+
     for asked, points in _questions(pinned, reason, craft, symmetric(p)):
         values = np.column_stack([_curved(name, pinned[name][points]) for name in asked.names])
         for k, (name, pin) in enumerate(zip(asked.names, asked.pins, strict=True)):
             if pin != QUANTITIES[name].place:
                 values[:, k] = 0.0  # a straight glide, asked for by another name
-        parts.append(_searched(asked, points, values, craft, printed, water, p))
+        parts.append(_searched(asked, points, values, craft, printed, water, p, seen))
     found = _joined(parts)
     if symmetric(p):
         straight = (found.x[:, ROTATION] == 0.0) & (np.abs(found.x[:, LATERAL]).max(axis=1, initial=0.0) < ROUNDED)
@@ -286,9 +295,10 @@ def _turns_wrongly(pinned: Mapping[str, Array]) -> NDArray[np.bool_]:
 
 
 def _searched(
-    asked: Question, points: Integers, values: Array, craft: Vehicle, printed: bool, water: Water, p: Parameters
-) -> _Found:
-    """Every trim at the points of one question, chunk by chunk on all cores."""
+    asked: Question, points: Integers, values: Array, craft: Vehicle, printed: bool, water: Water, p: Parameters,
+    told: Callable[[int], None],
+) -> _Found:  # fmt: skip
+    """Every trim at the points of one question, chunk by chunk on all cores. told : how many points each chunk had."""
     nominal = craft.actuators.mass_position.nominal
     seen = None if asked.pins == CONTROLS else chart(atlas(craft.actuators, printed, water, p), asked.pins)
     run = runner(len(points))
@@ -300,8 +310,15 @@ def _searched(
         return run(search_all, some, asked.pins, seen, _FOLLOWED, False, printed, water, p)
 
     chunks = [chunk(0)]  # compiles, where need be, in one thread
+    told(len(chunks[0][2]))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        chunks += pool.map(chunk, range(_CHUNK, len(points), _CHUNK))
+        try:
+            for done in pool.map(chunk, range(_CHUNK, len(points), _CHUNK)):
+                chunks.append(done)
+                told(len(done[2]))
+        except KeyboardInterrupt:
+            pool.shutdown(cancel_futures=True)
+            raise
     x, iterations, counts = map(np.concatenate, zip(*chunks, strict=True))
     there = np.arange(MOST_FOUND) < counts[:, np.newaxis]
     return _Found(x[there], iterations[there], np.repeat(points, counts))
