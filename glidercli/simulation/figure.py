@@ -19,8 +19,10 @@ if TYPE_CHECKING:
 __all__ = ["draw_flight"]
 
 _HEIGHT = 8.2  # inch
-_SPANS = ((3 * 3600.0, 60.0, "min"), (4 * 86400.0, 3600.0, "h"), (np.inf, 86400.0, "d"))
+_SPANS = ((300.0, 1.0, "s"), (3 * 3600.0, 60.0, "min"), (4 * 86400.0, 3600.0, "h"), (np.inf, 86400.0, "d"))
 """Unit of the time axis up to a duration, s."""
+_MOST_SWINGS = 200  # of a line through its middle that a panel of this width still shows one by one
+_BANDS = 400  # steps of a band
 _ROWS: tuple[tuple[str, float, tuple[tuple[str, str, float], ...]], ...] = (
     ("depth, m", 1.0, (("depth", "", 1.0),)),
     ("deg", 2.0, (("pitch", "pitch", 1.0), ("roll", "roll", 1.0))),
@@ -48,11 +50,11 @@ def draw_flight(log: Log) -> Figure:
     for axes, (label, least, lines) in zip(rows, _ROWS, strict=True):
         for (name, legend, factor), colour in zip(lines, COLOURS[1:], strict=False):
             seconds, values = _series(log, name)
-            axes.plot(seconds / unit, _broken(name, values * factor), color=colour, linewidth=0.9, label=legend)
+            _line(axes, seconds / unit, _broken(name, values * factor), color=colour, label=legend)
         axes.set_ylabel(label)
         _widen(axes, least)
         if len(lines) > 1:
-            axes.legend(loc="best", frameon=False, ncols=2)
+            _legend_above(axes)
     rows[0].invert_yaxis()
     rows[-1].set_xlabel(f"time, {word}")
     left.align_ylabels()
@@ -78,6 +80,32 @@ def _broken(name: str, values: Any) -> Any:
     return broken
 
 
+def _line(axes: Axes, seconds: Any, values: Any, *, color: str, label: str) -> None:
+    """A line by time; what goes to and fro too often to be told apart is the band that it fills."""
+    beyond_middle = values > 0.5 * (np.nanmin(values) + np.nanmax(values))
+    if np.count_nonzero(np.diff(beyond_middle)) < _MOST_SWINGS or np.isnan(values).any():
+        axes.plot(seconds, values, color=color, linewidth=0.9, label=label)
+        return
+    edges = np.unique(np.linspace(0, len(values), _BANDS + 1).astype(int))[:-1]
+    low, high = np.minimum.reduceat(values, edges), np.maximum.reduceat(values, edges)
+    axes.fill_between(seconds[edges], low, high, color=color, alpha=0.35, linewidth=0.6, label=label)
+
+
+def _legend_above(axes: Axes) -> None:
+    """The legend on top of the panel's right end, clear of what it shows."""
+    axes.legend(
+        loc="lower right",
+        bbox_to_anchor=(1.0, 1.0),
+        borderaxespad=0.1,
+        borderpad=0.1,
+        frameon=False,
+        ncols=3,
+        handlelength=1.2,
+        handletextpad=0.4,
+        columnspacing=1.0,
+    )
+
+
 def _widen(axes: Axes, least: float) -> None:
     """Open the axis to a span, so that what does not change is not drawn by its rounding."""
     low, high = axes.get_ylim()
@@ -91,11 +119,12 @@ def _mark(axes: Axes, log: Log, unit: float) -> None:
         at = [(event.time_ns - log.start_ns, event.depth) for event in log.events if event.name == name]
         if at:
             times, depths = zip(*at, strict=True)
+            size = 3.5 if len(at) < _MOST_SWINGS / 2 else 1.0
             axes.plot(
-                np.array(times) / 1e9 / unit, depths, marker, color="black", markersize=3.5, label=name, linestyle=""
+                np.array(times) / 1e9 / unit, depths, marker, color="black", markersize=size, label=name, linestyle=""
             )
     if axes.get_legend_handles_labels()[1]:
-        axes.legend(loc="best", frameon=False)
+        _legend_above(axes)
 
 
 def _track(axes: Axes, log: Log) -> None:
@@ -109,26 +138,28 @@ def _track(axes: Axes, log: Log) -> None:
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel(f"east, {unit}")
     axes.set_ylabel(f"north, {unit}")
-    axes.set_title("track over ground")
-    axes.legend(loc="best", frameon=False)
+    axes.set_title("track over ground", loc="left")
+    axes.locator_params(axis="x", nbins=5)
+    _legend_above(axes)
 
 
 def _water(axes: Axes, log: Log) -> None:
     """Current and density that the vehicle met, by depth; its speed where the water is all the same."""
     depth = log["depth"].values
     axes.invert_yaxis()
+    axes.locator_params(axis="x", nbins=5)
     axes.set_ylabel("depth, m")
     if "current_east" in log:
         for name, colour in (("current_east", COLOURS[0]), ("current_north", COLOURS[1])):
             axes.plot(log[name].values, depth, color=colour, linewidth=0.9, label=name[8:])
         axes.set_xlabel("current, m/s")
-        axes.set_title("current met")
-        axes.legend(loc="best", frameon=False)
+        axes.set_title("current met", loc="left")
+        _legend_above(axes)
     elif "pressure" in log:
         axes.plot(log["density"].values, depth, color=COLOURS[2], linewidth=0.9)
         axes.set_xlabel("density, kg/m$^3$")
-        axes.set_title("water met")
+        axes.set_title("water met", loc="left")
     else:
         axes.plot(log["speed_through_water"].values, depth, color=COLOURS[2], linewidth=0.7)
         axes.set_xlabel("speed through water, m/s")
-        axes.set_title("speed by depth")
+        axes.set_title("speed by depth", loc="left")
