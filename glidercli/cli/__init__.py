@@ -14,7 +14,10 @@ def main() -> None:
     from glidercli.cli.app import app
     from glidercli.errors import GliderError
 
-    signal.signal(signal.SIGTERM, _terminated)
+    for name in ("SIGTERM", "SIGHUP"):
+        request = getattr(signal, name, None)  # not every system has terminals that hang up
+        if request is not None and signal.getsignal(request) is not signal.SIG_IGN:  # nohup has it ignored
+            signal.signal(request, _terminated)
     try:
         app(prog_name="glider")
     except GliderError as error:

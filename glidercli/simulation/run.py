@@ -176,6 +176,11 @@ def simulate(
     )  # fmt: skip
     left = ocean.beyond(*flight.depths, float(flight.times[-1]))
     warnings = [*ocean.warnings, *wanted.warnings, *_warnings(flight, craft, wanted), *left]
+    spent = _costs(flight, craft, wanted)
+    if spent.total > spent.battery:
+        warnings.append(
+            f"the flight needs {spent.total / 1e6:.3g} MJ, and the battery holds {spent.battery / 1e6:g} MJ"
+        )
     if flight.depths[1] > DEEPEST:
         warnings.append(
             f"the flight goes down to {flight.depths[1]:.0f} m, deeper than any sea; bottom_m or a shorter duration "
@@ -188,7 +193,7 @@ def simulate(
         duration=float(flight.times[-1]),
         max_depth=flight.depths[1],
         distance=flight.distance,
-        costs=_costs(flight, craft, wanted),
+        costs=spent,
         net_buoyancy_in_water=flight.excess,
         wall=flight.wall,
         warnings=tuple(warnings),

@@ -148,6 +148,12 @@ def _of_recording(
     given: dict[str, float | None],
     duration: float | None,
 ) -> Task:
+    if initial is not None and ("time_note" in controls.metadata) != ("time_note" in initial.metadata):
+        without, other = sorted((controls, initial), key=lambda log: "time_note" not in log.metadata)
+        raise InputError(
+            source_of(without), f"has times since its start only, and {source_of(other)} has dates; needed are logs on "
+            "the same clock"
+        )  # fmt: skip
     zero = int(initial["depth"].time_ns[0]) if initial is not None and "depth" in initial else None
     leg, zero, warnings = controls_of(controls, zero, craft, p, given)
     _check_table(leg, craft)

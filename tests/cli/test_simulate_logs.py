@@ -194,3 +194,21 @@ def test_a_depth_above_the_surface_is_told(glider: Run, tmp_path: Path) -> None:
     done = glider("simulate", *HELD, "--initial", "i.csv", "--duration", "10")
     assert done.returncode == 0
     assert "initial depth of -2 m is above the surface; taken is 0 m" in done.stderr
+
+
+def test_a_log_without_dates_does_not_go_with_one_that_has_them(
+    glider: Run, flown: pd.DataFrame, tmp_path: Path
+) -> None:
+    flown.drop(columns="time_utc").to_csv(tmp_path / "undated.csv", index=False)
+    for controls, initial in (("undated", "flown"), ("flown", "undated")):
+        done = glider("simulate", "--controls", f"{controls}.csv", "--initial", f"{initial}.csv")
+        one_line_error(done, "undated.csv", "has times since its start only", "same clock")
+
+
+def test_a_battery_that_does_not_last_is_told(glider: Run, tmp_path: Path) -> None:
+    (tmp_path / "m.toml").write_text(
+        'name = "m"\ndescription = "d"\n[[leg]]\nkind = "drift"\nduration_s = 2.2e7\n'
+    )  # at 0.5 W 11 MJ of 10
+    done = glider("simulate", "m.toml", "--every", "1e5")
+    assert done.returncode == 0
+    assert "needs 11 MJ, and the battery holds 10 MJ" in done.stderr

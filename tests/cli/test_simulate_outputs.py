@@ -99,7 +99,7 @@ def test_a_flight_is_drawn(glider: Run, tmp_path: Path, kind: str) -> None:
         assert "provenance" not in text.split("<defs>")[-1]
 
 
-@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_an_interruption_leaves_nothing_and_says_how_far_it_came(tmp_path: Path, by: signal.Signals) -> None:
     (tmp_path / "yo.toml").write_text(YO.format(duration=2592000.0))
     command = [str(GLIDER), "simulate", "yo.toml", "-o", "f.csv", "-o", "f.nc"]
