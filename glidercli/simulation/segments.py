@@ -49,6 +49,8 @@ def tabled(times_: Array, values: Array, m: Array, p: Parameters, full: bool) ->
     """The segment of a table of controls at the present time, and when it ends; held before the first and after the
     last knot."""
     low = interval(times_, m[T] - m[LEG_START])
+    if low + 1 < len(times_) and m[LEG_START] + times_[low + 1] <= m[T]:  # the difference rounds, the sum is the clock
+        low += 1
     if low < 0 or low == len(times_) - 1:
         i = max(low, 0)
         stop = m[LEG_START] + times_[0] if low < 0 else math.inf

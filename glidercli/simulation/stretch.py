@@ -61,6 +61,7 @@ __all__ = ["fly_stretch"]
 Array = NDArray[np.float64]
 
 _SMALLEST_STEP = 1e-9  # s
+_MOST_STALLS = 100  # segments without length, one after the other: motors that arrive together and events make some
 
 
 @kernel
@@ -156,8 +157,12 @@ def fly_stretch(
     k, new, work = np.zeros((7, WIDTH)), np.empty(SIZE), np.empty(SIZE)
     first = m[ROW]
     until = min(until, ends.time)
-    thrown_back = False
+    thrown_back, before, stalled = False, -1.0, 0
     while m[T] < until:
+        stalled = stalled + 1 if m[T] == before else 0
+        if stalled > _MOST_STALLS:
+            return STEP_TOO_SMALL
+        before = m[T]
         water = at_depth(sea, y[2], m[T])
         if len(times_) > 0:
             segment, stop = tabled(times_, values, m, p, full)
