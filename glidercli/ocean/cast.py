@@ -81,12 +81,17 @@ class Cast:
 class _Place:
     """Where a cast was taken; ``used`` is the latitude that formulas get when it is not known.
 
-    given : latitude that the caller gave, deg, for a cast that tells none of its own.
+    given, given_longitude : what the caller gave, deg, for a cast that tells none of its own.
     """
 
     own_latitude: float | None
-    longitude: float | None
+    own_longitude: float | None
     given: float | None
+    given_longitude: float | None
+
+    @property
+    def longitude(self) -> float | None:
+        return self.given_longitude if self.own_longitude is None else self.own_longitude
 
     @property
     def latitude(self) -> float | None:
@@ -121,22 +126,24 @@ class _Place:
         return tuple(lines)
 
 
-def read_casts(path: str | Path, latitude: float | None = None) -> tuple[Cast, ...]:
+def read_casts(path: str | Path, latitude: float | None = None, longitude: float | None = None) -> tuple[Cast, ...]:
     """The casts of a file: of a table one for each time that several rows share; see ``read_ctd`` for each."""
     path = Path(path)
     text = read_text(path, _EXPECTED)
     if is_cnv(text):
-        return (read_ctd(path, latitude),)
+        return (read_ctd(path, latitude, longitude),)
     if latitude is not None:
         seawater.checked_latitude(latitude)
     table = parse_table(path, text, _EXPECTED)
-    return tuple(dataclasses.replace(_from_table(part, latitude), moment=moment) for moment, part in parts(table))
+    return tuple(
+        dataclasses.replace(_from_table(part, latitude, longitude), moment=moment) for moment, part in parts(table)
+    )
 
 
-def read_ctd(path: str | Path, latitude: float | None = None) -> Cast:
+def read_ctd(path: str | Path, latitude: float | None = None, longitude: float | None = None) -> Cast:
     """The cast in a Sea-Bird .cnv file or a plain table, told apart by content; either may be gzipped.
 
-    latitude : degrees north; used only where the file has none.
+    latitude, longitude : degrees north and east; used only where the file has none.
 
     A .cnv file is a record in time: its last descent is taken (see downcast.py). A table is a profile already: a row
     that lacks a value is left out and counted; the others must grow deeper, and any other fault is an error. Density
@@ -154,14 +161,14 @@ def read_ctd(path: str | Path, latitude: float | None = None) -> Cast:
         seawater.checked_latitude(latitude)
     text = read_text(path, _EXPECTED)
     if is_cnv(text):
-        return _from_cnv(path, text, latitude)
-    return _from_table(parse_table(path, text, _EXPECTED), latitude)
+        return _from_cnv(path, text, latitude, longitude)
+    return _from_table(parse_table(path, text, _EXPECTED), latitude, longitude)
 
 
-def _from_cnv(path: Path, text: str, latitude: float | None) -> Cast:
+def _from_cnv(path: Path, text: str, latitude: float | None, longitude: float | None) -> Cast:
     """The last descent of a .cnv file."""
     file = parse_cnv(path, text)
-    place = _Place(file.latitude, file.longitude, latitude)
+    place = _Place(file.latitude, file.longitude, latitude, longitude)
     recorded = samples(file, place.used)
     kept, dropped, warnings = downcast(recorded)
     if file.unreadable:
@@ -198,12 +205,13 @@ def _from_cnv(path: Path, text: str, latitude: float | None) -> Cast:
     )
 
 
-def _from_table(table: Table, latitude: float | None) -> Cast:
+def _from_table(table: Table, latitude: float | None, longitude: float | None) -> Cast:
     """The profile of a plain table, every row of it that lacks nothing."""
     whole = table
     table, dropped = _complete(whole)
     own_latitude = _constant(table, "latitude_deg", -90.0, 90.0)
-    place = _Place(own_latitude, _constant(table, "longitude_deg", -180.0, 360.0), latitude)
+    own_longitude = _constant(table, "longitude_deg", -180.0, 360.0)
+    place = _Place(own_latitude, own_longitude, latitude, longitude)
     depth, pressure = _axes(table, place)
     temperature = _column(table, "temperature_degC", TEMPERATURE)
     salinity = _column(table, "salinity", SALINITY)

@@ -50,7 +50,7 @@ def draw_flight(log: Log) -> Figure:
     for axes, (label, least, lines) in zip(rows, _ROWS, strict=True):
         for (name, legend, factor), colour in zip(lines, COLOURS[1:], strict=False):
             seconds, values = _series(log, name)
-            _line(axes, seconds / unit, _broken(name, values * factor), color=colour, label=legend)
+            _line(axes, seconds / unit, _broken(name, values * factor), least, color=colour, label=legend)
         axes.set_ylabel(label)
         _widen(axes, least)
         if len(lines) > 1:
@@ -80,10 +80,11 @@ def _broken(name: str, values: Any) -> Any:
     return broken
 
 
-def _line(axes: Axes, seconds: Any, values: Any, *, color: str, label: str) -> None:
-    """A line by time; what goes to and fro too often to be told apart is the band that it fills."""
-    beyond_middle = values > 0.5 * (np.nanmin(values) + np.nanmax(values))
-    if np.count_nonzero(np.diff(beyond_middle)) < _MOST_SWINGS or np.isnan(values).any():
+def _line(axes: Axes, seconds: Any, values: Any, least: float, *, color: str, label: str) -> None:
+    """A line by time; what goes to and fro too often to be told apart, by more than ``least``, is the band it fills."""
+    low, high = np.nanmin(values), np.nanmax(values)
+    swings = np.count_nonzero(np.diff(values > 0.5 * (low + high)))
+    if high - low < least or swings < _MOST_SWINGS or np.isnan(values).any():
         axes.plot(seconds, values, color=color, linewidth=0.9, label=label)
         return
     edges = np.unique(np.linspace(0, len(values), _BANDS + 1).astype(int))[:-1]
@@ -114,14 +115,13 @@ def _widen(axes: Axes, least: float) -> None:
 
 
 def _mark(axes: Axes, log: Log, unit: float) -> None:
-    """Where dives turn and where the vehicle surfaces or grounds."""
+    """Where dives turn and where the vehicle surfaces or grounds, unless that is too often to be told apart."""
     for name, marker in (("apogee", "v"), ("surfacing", "^"), ("grounding", "x")):
         at = [(event.time_ns - log.start_ns, event.depth) for event in log.events if event.name == name]
-        if at:
+        if 0 < len(at) < _MOST_SWINGS / 2:
             times, depths = zip(*at, strict=True)
-            size = 3.5 if len(at) < _MOST_SWINGS / 2 else 1.0
             axes.plot(
-                np.array(times) / 1e9 / unit, depths, marker, color="black", markersize=size, label=name, linestyle=""
+                np.array(times) / 1e9 / unit, depths, marker, color="black", markersize=3.5, label=name, linestyle=""
             )
     if axes.get_legend_handles_labels()[1]:
         _legend_above(axes)

@@ -206,7 +206,7 @@ def fly(
         m[COMMAND_RRX : COMMAND_MB + 1] = commands
         given = (order, drives, leg.times, leg.values, ends, sea, p, full, every)
         there = (leg.goes == "down" and y[2] >= ends.floor) or (leg.goes == "up" and y[2] <= ends.ceiling)
-        there = there or (leg.steered and y[2] == leg.until_depth)
+        there = there or (leg.steered and y[2] == leg.until_depth) or y[2] >= bottom - leg.until_altitude
         if leg.ends_by_depth_alone and not there:
             check_reach(leg, order, drives, y, float(m[T]), sea, p)
         run: Any = fly_stretch if plain else compiled(fly_stretch)  # not before: bad input needs no compiling

@@ -104,11 +104,13 @@ def ended(
     status, share = GOING_ON, 1.0
     top, bend = (1.0, new[2]) if k[0, 2] * k[6, 2] >= 0.0 else turning_point(y, new, h, k, work)
     lowest, highest = max(new[2], bend), min(new[2], bend)
-    floor, ceiling = min(ends.floor, stops.bottom), max(ends.ceiling, stops.surface)
     sinks, rises = k[0, 2] > 0.0, k[0, 2] < 0.0
+    to_floor = ends.floor if y[2] < ends.floor else math.inf  # one that is passed already ends nothing
+    to_ceiling = ends.ceiling if y[2] > ends.ceiling or (y[2] == ends.ceiling and sinks) else -math.inf
+    floor, ceiling = min(to_floor, stops.bottom), max(to_ceiling, stops.surface)
     if lowest >= floor and y[2] < floor:
         share = depth_share(y, new, h, k, floor, 0.0, top if bend >= floor else 1.0, work)
-        status = GROUNDED if stops.bottom <= ends.floor else AT_DEPTH
+        status = GROUNDED if stops.bottom <= to_floor else AT_DEPTH
     elif highest <= ceiling and (y[2] > ceiling or (y[2] == ceiling and sinks)):
         share = depth_share(y, new, h, k, ceiling, top if sinks else 0.0, top if bend <= ceiling else 1.0, work)
         status = SURFACED if ceiling <= SURFACE else AT_DEPTH

@@ -161,7 +161,7 @@ def simulate(
     if latitude is None:
         latitude = plan[0].latitude if plan else wanted.place[0] if wanted.place else None
     with _for_mission(plan, asked, "ctd"):
-        casts = read_casts(ctd, latitude) if ctd else ()
+        casts = read_casts(ctd, latitude, wanted.place[1] if wanted.place else None) if ctd else ()
     with _for_mission(plan, asked, "adcp"):
         currents = read_currents(adcp) if adcp else ()
     ocean = Ocean.build(
@@ -177,6 +177,10 @@ def simulate(
     left = ocean.beyond(*flight.depths, float(flight.times[-1]))
     warnings = [*ocean.warnings, *wanted.warnings, *_warnings(flight, craft, wanted), *left]
     spent = _costs(flight, craft, wanted)
+    if spent.lost_to_water < -1e-3:
+        warnings.append(
+            f"the water gave the vehicle {-spent.lost_to_water:.3g} J: at angles beyond the fit its forces mean nothing"
+        )
     if spent.total > spent.battery:
         warnings.append(
             f"the flight needs {spent.total / 1e6:.3g} MJ, and the battery holds {spent.battery / 1e6:g} MJ"

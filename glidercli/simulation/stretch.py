@@ -60,7 +60,8 @@ __all__ = ["fly_stretch"]
 
 Array = NDArray[np.float64]
 
-_SMALLEST_STEP = 1e-9  # s
+_SMALLEST_STEP = 1e-9  # s, or what a clock at time t can tell: 1e-15 t
+_MOST_FORCED = 10_000  # steps of that length in a segment
 _MOST_STALLS = 100  # segments without length, one after the other: motors that arrive together and events make some
 
 
@@ -75,8 +76,10 @@ def fly_segment(
     slope_into(k, 0, t, y, segment, sea, p, full)
     m[EVALUATIONS] += 1.0
     above, below = smooth_depths(y[2], t, sea, full)
+    forced = 0
     while t < stop:
         left = stop - t
+        smallest = max(_SMALLEST_STEP, 1e-15 * t)
         V = (k[0, SIZE], k[0, SIZE + 1], k[0, SIZE + 2])
         h = min(m[STEP], LARGEST_STEP, damped_step(V, segment, sea.gravity, p))
         if not above <= y[2] < below:
@@ -84,17 +87,19 @@ def fly_segment(
         if not above < y[2] + h * k[0, 2] < below:
             h = smooth_step(h, y[2], k[0, 2], t, sea, full)
         last = h >= left * (1.0 - 1e-12)
-        h = left if last else min(h, max(0.5 * left, _SMALLEST_STEP)) if h > 0.5 * left else h
+        h = left if last else min(h, max(0.5 * left, smallest)) if h > 0.5 * left else h
         stages(y, t, h, k, new, segment, sea, p, full)
         m[EVALUATIONS] += 6.0
         error = error_norm(y, new, h, k, rtol, scales)
         if not error <= 1.0:
-            m[STEP] = h * max(0.1, 0.9 * error**-0.2) if error < math.inf else 0.1 * h
-            if m[STEP] < _SMALLEST_STEP:
+            if h > smallest:
+                m[STEP] = max(smallest, h * max(0.1, 0.9 * error**-0.2) if error < math.inf else 0.1 * h)
+                continue
+            forced += 1  # across a jump of the forces, as where a vehicle that moves backward sinks and then rises
+            if error == math.inf or forced > _MOST_FORCED:
                 return STEP_TOO_SMALL
-            continue
         if h >= m[STEP]:  # else something shorter bound it, and its error says nothing of longer ones
-            m[STEP] = h * min(5.0, max(0.2, 0.9 * max(error, 1e-10) ** -0.17 * m[ERROR] ** 0.04))
+            m[STEP] = max(smallest, h * min(5.0, max(0.2, 0.9 * max(error, 1e-10) ** -0.17 * m[ERROR] ** 0.04)))
             m[ERROR] = max(error, 1e-4)
         status, share = ended(y, new, h, k, m, ends, stops, work)
         t_new = (stop if last else t + h) if share == 1.0 else t + share * h

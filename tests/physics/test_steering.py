@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -241,3 +242,26 @@ def test_a_table_of_controls_goes_on_whatever_the_clock_rounds(p: Parameters) ->
         rounded += m[T] - m[LEG_START] < 357.0
         assert tabled(knots, values, m, p, True)[1] == start + 729.0
     assert rounded > 50
+
+
+def test_a_tight_tolerance_gets_past_a_jump_of_the_forces(p: Parameters) -> None:
+    """With the mass aft the vehicle slides backward from rest; there the lift jumps where the sinking turns to rising."""
+    flight, best = (fly([held(0.3673, 0.0, 0.1)], STILL, p, duration=60.0, rtol=rtol) for rtol in (1e-7, 1e-13))
+    assert flight.column("u").min() < -0.01
+    assert np.abs(flight.column("down") - best.column("down")).max() < 1e-4  # m
+
+
+@pytest.mark.parametrize("goes", ["down", ""])
+def test_a_leg_that_begins_below_its_altitude_ends_at_once_and_the_bottom_stays(
+    p: Parameters, goes: Literal["down", ""]
+) -> None:
+    order = pitched(p, math.radians(-30.0), 0.3)
+    legs = [
+        Leg("down", order=order, goes="down", until_depth=57.0),
+        Leg("low", order=order, goes=goes, until_altitude=7.4),
+        Leg("on", order=order, duration=120.0, bottom_ends=False),
+    ]
+    flight = fly(legs, STILL, p, controls=LEVEL, drives=DRIVES, floats=True, bottom=63.9)
+    assert [line.split(" begins")[0] for line in flight.skipped] == ["low"]
+    assert flight.depths[1] == 63.9
+    assert next(event.depth for event in flight.events if event.name == "grounding") == 63.9
