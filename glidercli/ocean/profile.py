@@ -24,7 +24,6 @@ __all__ = [
 
 
 _GAP_RATIO, _GAP_LEAST = 5.0, 5.0  # standard depths grow by less from step to step; m, below it little can hide
-_PASSED = 1e-3  # m: how close a step comes to the sample that it ends at
 _GAP_REACH = 5  # intervals to either side that tell what is usual
 
 
@@ -39,6 +38,9 @@ class Profile(NamedTuple):
     """(m,), s, strictly increasing."""
     first: NDArray[np.int64]
     """(m + 1,), where each profile begins in depth, and n."""
+    bends: NDArray[np.float64]
+    """(b + 2,), m, increasing: depths of samples at which any of the profiles goes from one cubic to another, between
+    minus infinity and infinity."""
 
 
 def pchip(depth: ArrayLike, values: ArrayLike) -> Profile:
@@ -72,7 +74,13 @@ def pchip(depth: ArrayLike, values: ArrayLike) -> Profile:
     coefficients[3, -1] = y[-1]
     if len(z) > 1:
         coefficients[:, :-1, known] = _cubics(z, y[:, known])
-    return Profile(z, coefficients, np.zeros(1), np.array([0, len(z)]))
+    varies = (coefficients[:3] != 0.0).any(axis=(0, 2))  # the last row is of no interval
+    bends = z[varies | np.concatenate([[False], varies[:-1]])]
+    return Profile(z, coefficients, np.zeros(1), np.array([0, len(z)]), _between_infinities(bends))
+
+
+def _between_infinities(depths: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.concatenate([[-np.inf], depths, [np.inf]])
 
 
 def _cubics(z: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -114,6 +122,7 @@ def in_time(times: ArrayLike, profiles: Sequence[Profile]) -> Profile:
         np.concatenate([profile.coefficients for profile in profiles], axis=1),
         np.ascontiguousarray(times, dtype=np.float64),
         np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64),
+        np.unique(np.concatenate([profile.bends for profile in profiles])),
     )
 
 
@@ -187,44 +196,6 @@ def locate(profile: Profile, number: int, z: float) -> tuple[int, float, bool]:
         return top, 0.0, True
     low = interval_between(depth, z, top, bottom)
     return low, z - depth[low], False
-
-
-@kernel
-def to_sample(profile: Profile, number: int, z: float, way: float) -> float:
-    """The way, m, positive down, from depth z, m, to the sample that lies on it; all of it where none does, or several.
-
-    The profile bends at a sample, where one cubic meets the next: a step that ends there sees one cubic only. Where
-    samples are closer than steps are long, the bends are as small as what the samples tell. A sample closer than a
-    millimetre counts as passed.
-    """
-    depth, top, bottom = profile.depth, profile.first[number], profile.first[number + 1] - 1
-    ahead = 1 if way > 0.0 else -1
-    i = interval_between(depth, z + ahead * _PASSED, top - 1, bottom + 1) + (1 if ahead > 0 else 0)
-    if i < top or i > bottom or abs(depth[i] - z) >= abs(way):
-        return way
-    after = i + ahead
-    if top <= after <= bottom and abs(depth[after] - z) < abs(way):
-        return way
-    return float(depth[i] - z) if varies(profile, i, top) else way
-
-
-@kernel
-def samples_around(profile: Profile, number: int, z: float) -> tuple[float, float]:
-    """The depths, m, of the samples next above or at z and next below; infinite where there is none."""
-    depth, top, bottom = profile.depth, profile.first[number], profile.first[number + 1] - 1
-    low = interval_between(depth, z, top - 1, bottom + 1)
-    return depth[low] if low >= top else -np.inf, depth[low + 1] if low < bottom else np.inf
-
-
-@kernel
-def varies(profile: Profile, i: int, top: int) -> bool:
-    """Whether a profile that begins at ``top`` changes with depth on either side of its sample i."""
-    for j in range(max(top, i - 1), i + 1):
-        for column in range(profile.coefficients.shape[2]):
-            for power in range(3):
-                if profile.coefficients[power, j, column] != 0.0:
-                    return True
-    return False
 
 
 @kernel

@@ -8,9 +8,9 @@ import numpy as np
 
 from glidercli.frames import Vector, add, scale
 from glidercli.kernel import kernel
-from glidercli.ocean.profile import Profile, cubic, cubic_slope, locate, moment, next_moment, samples_around, to_sample
+from glidercli.ocean.profile import Profile, cubic, cubic_slope, locate, moment, next_moment
 
-__all__ = ["Sea", "Water", "at_depth", "next_change", "smooth_range", "smooth_way"]
+__all__ = ["Sea", "Water", "at_depth", "next_change"]
 
 DENSITY, PRESSURE, TEMPERATURE = 0, 1, 2
 """Columns of the water profile: kg/m3 in situ, Pa, degC."""
@@ -87,25 +87,6 @@ def _current(current: Profile, number: int, z: float) -> tuple[Vector, Vector]:
     return U, (
         cubic_slope(current, i, x, NORTH), cubic_slope(current, i, x, EAST), cubic_slope(current, i, x, DOWN),
     )  # fmt: skip
-
-
-@kernel
-def smooth_way(profile: Profile, z: float, way: float, t: float) -> float:
-    """The part of a way down or up, m, positive down, from depth z, m, at time t, s, on which a profile is smooth."""
-    number, share = moment(profile, t)
-    way = to_sample(profile, number, z, way)
-    return to_sample(profile, number + 1, z, way) if share > 0.0 else way
-
-
-@kernel
-def smooth_range(profile: Profile, z: float, t: float) -> tuple[float, float]:
-    """Depths, m, between which a profile is smooth around depth z, m, at time t, s."""
-    number, share = moment(profile, t)
-    above, below = samples_around(profile, number, z)
-    if share > 0.0:
-        later = samples_around(profile, number + 1, z)
-        above, below = max(above, later[0]), min(below, later[1])
-    return above, below
 
 
 @kernel

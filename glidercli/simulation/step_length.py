@@ -7,10 +7,11 @@ import math
 from glidercli.frames import Vector, dot
 from glidercli.kernel import kernel
 from glidercli.model.parameters import Parameters
-from glidercli.ocean.water import Sea, smooth_range, smooth_way
+from glidercli.ocean.profile import interval
+from glidercli.ocean.water import Sea
 from glidercli.simulation.stepper import Segment
 
-__all__ = ["LARGEST_STEP", "damped_step", "smooth_depths", "smooth_step"]
+__all__ = ["LARGEST_STEP", "damped_step", "smooth_depths"]
 
 LARGEST_STEP = 30.0  # s: a tenth of the shortest leg that anybody flies
 _DECAYS = 3.0  # time constants of a decay: the pair allows 3.3, coupling and density take some of the difference
@@ -32,26 +33,14 @@ def damped_step(V: Vector, segment: Segment, gravity: float, p: Parameters) -> f
 
 
 @kernel
-def smooth_depths(z: float, t: float, sea: Sea, full: bool) -> tuple[float, float]:
-    """Depths, m, between which the water around depth z, m, is smooth."""
-    above, below = smooth_range(sea.water, z, t)
-    if full:
-        current = smooth_range(sea.current, z, t)
-        above, below = max(above, current[0]), min(below, current[1])
-    return above, below
+def smooth_depths(z: float, sea: Sea, full: bool) -> tuple[float, float]:
+    """Depths, m, between which the water around depth z, m, is smooth: samples at which a profile bends.
 
-
-@kernel
-def smooth_step(h: float, z: float, sinking: float, t: float, sea: Sea, full: bool) -> float:
-    """The step, s, cut where it meets a sample of the water, at which a profile bends; sinking in m/s.
-
-    A step across a bend is no better than one of third order. Without ``full`` a current bends no motion, only the
-    track.
+    Without ``full`` a current bends no motion, only the track.
     """
-    way = h * sinking
-    if way == 0.0:
-        return h
-    part = smooth_way(sea.water, z, way, t)
+    i = interval(sea.water.bends, z)
+    above, below = sea.water.bends[i], sea.water.bends[i + 1]
     if full:
-        part = smooth_way(sea.current, z, part, t)
-    return h * part / way
+        i = interval(sea.current.bends, z)
+        above, below = max(above, sea.current.bends[i]), min(below, sea.current.bends[i + 1])
+    return above, below

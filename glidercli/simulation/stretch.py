@@ -53,7 +53,7 @@ from glidercli.simulation.memory import (
 from glidercli.simulation.reach import Range, note_angles, note_depth
 from glidercli.simulation.sampling import record
 from glidercli.simulation.segments import move_actuators, steered, tabled
-from glidercli.simulation.step_length import LARGEST_STEP, damped_step, smooth_depths, smooth_step
+from glidercli.simulation.step_length import LARGEST_STEP, damped_step, smooth_depths
 from glidercli.simulation.stepper import SIZE, WIDTH, Segment, controls_at, dense, error_norm, slope_into, stages
 
 __all__ = ["fly_stretch"]
@@ -62,6 +62,7 @@ Array = NDArray[np.float64]
 
 _SMALLEST_STEP = 1e-9  # s, or what a clock at time t can tell: 1e-15 t
 _MOST_FORCED = 10_000  # steps of that length in a segment
+_PASSED = 1e-3  # m: a bend of the water that near counts as passed; a step across it is of third order
 _MOST_STALLS = 100  # segments without length, one after the other: motors that arrive together and events make some
 
 
@@ -75,17 +76,19 @@ def fly_segment(
     t = m[T]
     slope_into(k, 0, t, y, segment, sea, p, full)
     m[EVALUATIONS] += 1.0
-    above, below = smooth_depths(y[2], t, sea, full)
+    above, below = math.inf, -math.inf
     forced = 0
     while t < stop:
         left = stop - t
         smallest = max(_SMALLEST_STEP, 1e-15 * t)
         V = (k[0, SIZE], k[0, SIZE + 1], k[0, SIZE + 2])
         h = min(m[STEP], LARGEST_STEP, damped_step(V, segment, sea.gravity, p))
-        if not above <= y[2] < below:
-            above, below = smooth_depths(y[2], t, sea, full)
-        if not above < y[2] + h * k[0, 2] < below:
-            h = smooth_step(h, y[2], k[0, 2], t, sea, full)
+        way, ahead = h * k[0, 2], y[2] + math.copysign(_PASSED, k[0, 2])
+        if not above <= ahead < below:
+            above, below = smooth_depths(ahead, sea, full)
+        left_smooth = below - y[2] if way > 0.0 else y[2] - above
+        if left_smooth < abs(way) < below - above:  # else bends are closer than steps are long
+            h *= left_smooth / abs(way)
         last = h >= left * (1.0 - 1e-12)
         h = left if last else min(h, max(0.5 * left, smallest)) if h > 0.5 * left else h
         stages(y, t, h, k, new, segment, sea, p, full)

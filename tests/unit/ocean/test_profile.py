@@ -8,7 +8,7 @@ from scipy.interpolate import PchipInterpolator
 
 from glidercli.errors import InputError
 from glidercli.kernel import compiled, kernel
-from glidercli.ocean.profile import Profile, cubic, cubic_slope, locate, pchip, samples_around, to_sample, wide_gaps
+from glidercli.ocean.profile import Profile, cubic, cubic_slope, in_time, locate, pchip, wide_gaps
 
 ROUND_OFF = 1e-12  # a few operations in double precision on values of order ten
 
@@ -138,27 +138,9 @@ def test_the_cubics_are_those_of_scipy(n):
         np.testing.assert_allclose(ours, PchipInterpolator(depth, values).c, atol=1e-12)  # rounding
 
 
-def test_the_way_to_the_next_sample_at_which_a_profile_bends():
-    profile = pchip([10.0, 20.0, 30.0, 30.5, 31.0], [1.0, 2.0, 4.0, 5.0, 5.5])
-    ways = {
-        (12.0, 9.0): 8.0,
-        (12.0, 7.0): 7.0,
-        (18.0, -9.0): -8.0,
-        (18.0, -7.0): -7.0,
-        (5.0, 6.0): 5.0,
-        (40.0, -9.3): -9.0,
-    }
-    for (z, way), part in ways.items():
-        assert to_sample(profile, 0, z, way) == part, (z, way)
-    assert to_sample(profile, 0, 12.0, 18.8) == 18.8  # two samples on the way
-    assert to_sample(profile, 0, 19.9995, 5.0) == 5.0  # half a millimetre away: passed
-    assert to_sample(profile, 0, 20.0, 5.0) == 5.0
-    assert to_sample(profile, 0, 40.0, 5.0) == 5.0
-    assert to_sample(pchip([10.0, 20.0], [3.0, 3.0]), 0, 9.0, 5.0) == 5.0  # constant: nothing bends
-
-
-def test_the_samples_around_a_depth():
-    profile = pchip([10.0, 20.0, 30.0], [1.0, 2.0, 4.0])
-    assert samples_around(profile, 0, 5.0) == (-math.inf, 10.0)
-    assert samples_around(profile, 0, 20.0) == (20.0, 30.0)
-    assert samples_around(profile, 0, 30.0) == (30.0, math.inf)
+def test_a_profile_bends_at_its_samples_unless_it_is_constant_around_them():
+    profile = pchip([10.0, 20.0, 30.0, 40.0, 50.0], [1.0, 2.0, 4.0, 4.0, 4.0])
+    assert profile.bends.tolist() == [-math.inf, 10.0, 20.0, 30.0, math.inf]
+    assert pchip([10.0, 20.0], [3.0, 3.0]).bends.tolist() == [-math.inf, math.inf]
+    both = in_time([0.0, 60.0], [profile, pchip([0.0, 20.0], [1.0, 2.0])])
+    assert both.bends.tolist() == [-math.inf, 0.0, 10.0, 20.0, 30.0, math.inf]
