@@ -104,15 +104,17 @@ def _numba() -> tuple[Any, bool]:
     class Compiling(event.Listener):
         """Keeps Python from looking for garbage while numba compiles, where there is little: a tenth of its time."""
 
-        depth = 0
+        depth, looked = 0, False
 
         def on_start(self, event: Any) -> None:
+            if self.depth == 0:
+                self.looked = gc.isenabled()
             self.depth += 1
             gc.disable()
 
         def on_end(self, event: Any) -> None:
             self.depth -= 1
-            if self.depth == 0:
+            if self.depth == 0 and self.looked:
                 gc.enable()
 
     event.register("numba:compile", Compiling())  # type: ignore[no-untyped-call]

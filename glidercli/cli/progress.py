@@ -24,7 +24,7 @@ class Bar:
         self._done, self._whole = 0.0, math.inf
         self._shown: Any = None
         self._task: Any = None
-        self._lock = threading.Lock()
+        self._lock, self._stopped = threading.Lock(), False
         self._timer = threading.Timer(_AFTER, self._show)
         self._timer.daemon = True
         if not quiet and sys.stderr.isatty():
@@ -44,6 +44,7 @@ class Bar:
         """Take the bar away."""
         self._timer.cancel()
         with self._lock:
+            self._stopped = True
             if self._shown is not None:
                 self._shown.stop()
 
@@ -58,6 +59,8 @@ class Bar:
         from rich.progress import Progress
 
         with self._lock:
+            if self._stopped:  # while the lines above took their time
+                return
             self._shown = Progress(console=Console(stderr=True), transient=True)
             self._task = self._shown.add_task(self._what)
             self._shown.start()

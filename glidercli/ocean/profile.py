@@ -76,11 +76,8 @@ def pchip(depth: ArrayLike, values: ArrayLike) -> Profile:
         coefficients[:, :-1, known] = _cubics(z, y[:, known])
     varies = (coefficients[:3] != 0.0).any(axis=(0, 2))  # the last row is of no interval
     bends = z[varies | np.concatenate([[False], varies[:-1]])]
-    return Profile(z, coefficients, np.zeros(1), np.array([0, len(z)]), _between_infinities(bends))
-
-
-def _between_infinities(depths: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.concatenate([[-np.inf], depths, [np.inf]])
+    bends = np.concatenate([[-np.inf], bends, [np.inf]])
+    return Profile(z, coefficients, np.zeros(1), np.array([0, len(z)]), bends)
 
 
 def _cubics(z: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -52,3 +52,13 @@ def test_an_interruption_says_how_far_it_came(whole: float, words: str) -> None:
 
     with pytest.raises(Interrupted, match=f"the flight was interrupted {words}; nothing was written"):
         interrupted()
+
+
+def test_a_bar_that_is_late_does_not_appear_after_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    stream = Terminal()
+    monkeypatch.setattr(sys, "stderr", stream)
+    bar = module.Bar("the flight", "s", quiet=False)
+    bar.stop()
+    bar._show()  # what the timer does, had it run out while the bar was being stopped
+    bar.tell(1.0, 2.0)
+    assert stream.getvalue() == ""
