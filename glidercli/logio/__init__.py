@@ -1,6 +1,7 @@
 """How do logs come in and go out? One reader per family, one writer per output, picked by content and by ending."""
 
-from glidercli.logio.reading import FORMATS, Reading, read
+from glidercli.logio.formats import FORMATS
+from glidercli.logio.reading import Reading, read
 from glidercli.logio.replaying import Replay, replay
 from glidercli.logio.report import FileReport
 from glidercli.logio.writing import SUFFIXES, Saving, saving, write

@@ -16,6 +16,7 @@ from glidercli.errors import InputError
 from glidercli.files import metadata_path
 from glidercli.log import Channel, Event, Log, Origin
 from glidercli.logio.csv_metadata import origin_word, read_metadata, stranger
+from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport
 from glidercli.origins import BOTH, column_name, origins
 from glidercli.provenance import file_hash
@@ -74,7 +75,7 @@ def is_csv(path: Path) -> bool:
     return bool({"time_utc", "elapsed_s"} & set(names)) and any(by_column(name) for name in names)
 
 
-def read_csv(path: Path) -> tuple[Log, FileReport]:
+def read_csv(path: Path, aids: Aids = Aids()) -> Part:
     """A log from a CSV table with time_utc (or elapsed_s) and columns in the contract's names.
 
     Where its values come from is told by the metadata beside it and by a column named origin, which must not
@@ -119,10 +120,11 @@ def read_csv(path: Path) -> tuple[Log, FileReport]:
     channels = [Channel(c.name, c.time_ns, c.values, origins.get(c.name, other)) for c in log.channels.values()]
     events = tuple(Event(e["name"], e["time_ns"], e["depth_m"]) for e in metadata.get("events", []))
     log = Log({channel.name: channel for channel in channels if len(channel)}, origin, log.metadata, events)
-    kept = int(table.drop(columns="time_utc").notna().any(axis=1).sum())
-    dropped = {"no value": len(table) - kept, "wrong number of fields": cut}
+    kept = table.drop(columns="time_utc").notna().any(axis=1).to_numpy()
+    dropped = {"no value": int((~kept).sum()), "wrong number of fields": cut}
     reasons = tuple((reason, count) for reason, count in dropped.items() if count)
-    return log, FileReport(path, "glider-csv", len(table) + cut, kept, reasons, tuple(warnings))
+    report = FileReport(path, "glider-csv", len(table) + cut, int(kept.sum()), reasons, tuple(warnings))
+    return Part(log, report, table["time_utc"].to_numpy().astype(np.int64)[kept])
 
 
 def _check_same(path: Path, table: Any, metadata: dict[str, Any], dated: bool) -> None:

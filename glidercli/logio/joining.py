@@ -1,4 +1,8 @@
-"""When do several files make one log? In time order, no record twice, nothing of another origin among them."""
+"""When do several files make one log? In time order, no record twice, nothing of another origin among them.
+
+Files of one dive (navigation and payload) may interleave. Dives follow one another: what is not after the one before
+is dropped and counted. Of files that hold the same recording the fullest is read.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
-from glidercli.log import Channel, Log
+from glidercli.log import Channel, Event, Log, Origin
+from glidercli.logio.reader import Part
 from glidercli.logio.report import FileReport
 
 __all__ = ["joined"]
@@ -17,78 +22,158 @@ FAR = 86400 * 10**9
 """Files further apart in time than this are joined, and it is said, ns."""
 PLACE = ("origin_latitude_deg", "origin_longitude_deg")
 
-Read = tuple[Log, FileReport]
 
+def joined(parts: list[Part]) -> tuple[Log, list[FileReport]]:
+    """One Log of what several files gave, and their reports with what joining dropped.
 
-def joined(parts: list[Read]) -> tuple[Log, list[FileReport]]:
-    """One Log of the logs of several files, and their reports with what joining dropped.
-
-    A file's records must come after all earlier ones of the channels that it shares: others are dropped and counted.
-    Navigation and payload share none. Raises InputError where origins, vehicles or the places of tracks differ.
+    Raises InputError where origins, vehicles or the places of tracks differ.
     """
-    ordered = sorted(parts, key=lambda part: part[0].start_ns)
-    first, source = ordered[0]
-    kept: list[Log] = []
-    reports = {}
+    _check_alike(parts)
+    reports = {part.report.path: part.report for part in parts}
+    dives: dict[str, list[Part]] = {}
+    for number, part in enumerate(parts):
+        twin = _fuller(part, parts)
+        if twin is not None:
+            reports[part.report.path] = _all_dropped(part.report, f"its recording is in {twin.report.path.name}")
+        else:
+            dives.setdefault(part.dive or f"file {number}", []).append(part)
     reached: dict[str, int] = {}
-    for log, report in ordered:
-        if log.origin != first.origin:
-            raise InputError(report.path, f"is {log.origin}, {source.path} is {first.origin}; read them one by one")
-        platforms = [item.metadata.get("platform", "") for item in (first, log)]
+    kept: list[Log] = []
+    for dive in sorted(dives.values(), key=lambda files: min(part.log.start_ns for part in files)):
+        dive = [_after(part, reached) for part in _without_yielded(dive)]
+        log = _interleaved([part.log for part in dive if part.log.channels])
+        reports |= {part.report.path: part.report for part in dive}
+        if log is not None:
+            reached |= {name: int(channel.time_ns[-1]) for name, channel in log.channels.items()}
+            kept.append(log)
+    return _one(kept), [reports[part.report.path] for part in parts]
+
+
+def _check_alike(parts: list[Part]) -> None:
+    """Refuse what cannot be one flight: each is set against the earliest."""
+    ordered = sorted(parts, key=lambda part: part.log.start_ns)
+    first = ordered[0]
+    place: Part | None = None
+    for part in ordered:
+        path, beside = part.report.path, first.report.path
+        if part.log.origin != first.log.origin:
+            raise InputError(path, f"is {part.log.origin}, {beside} is {first.log.origin}; read them one by one")
+        platforms = [item.log.metadata.get("platform", "") for item in (first, part)]
         if all(platforms) and platforms[0] != platforms[1]:
-            raise InputError(
-                report.path, f"is of {platforms[1]}, {source.path} of {platforms[0]}; read them one by one"
-            )
-        if any("north" in other and "north" in log and _place(other) != _place(log) for other in kept):
-            raise InputError(report.path, "has a track about another origin than the files before; read it by itself")
-        end = max((reached[name] for name in log.channels if name in reached), default=None)
-        if end is not None:
-            if log.start_ns - end > FAR:
-                days = (log.start_ns - end) / FAR
-                note = f"starts {days:.1f} days after the file before it; joined all the same"
-                report = dataclasses.replace(report, warnings=(*report.warnings, note))
-            log, report = _after(log, report, end)
-        reached |= {name: int(channel.time_ns[-1]) for name, channel in log.channels.items()}
-        kept.append(log)
-        reports[id(report.path)] = report
-    return _one(kept), [reports[id(report.path)] for _, report in parts]
+            raise InputError(path, f"is of {platforms[1]}, {beside} of {platforms[0]}; read them one by one")
+        if "north" in part.log:
+            if place is not None and _place(place.log) != _place(part.log):
+                raise InputError(path, "has a track about another origin than the files before; read it by itself")
+            place = place or part
 
 
 def _place(log: Log) -> list[str | None]:
     return [log.metadata.get(key) for key in PLACE]
 
 
-def _records(log: Log) -> NDArray[np.int64]:
-    """Times of the records that gave the log."""
-    return np.unique(np.concatenate([channel.time_ns for channel in log.channels.values()]))
+def _fuller(part: Part, parts: list[Part]) -> Part | None:
+    """The fullest of the files that hold all that this one does, if it is another; of equals the first."""
+    twins = [other for other in parts if part.holds and set(part.holds) <= set(other.holds)]
+    best = max(twins, key=lambda other: (other.fullness, len(other.holds)), default=part)
+    return None if best is part else best
 
 
-def _after(log: Log, report: FileReport, end_ns: int) -> Read:
-    """The part of a file after ``end_ns``, the rest counted as dropped."""
-    over = int((_records(log) <= end_ns).sum())
-    if not over:
-        return log, report
-    dropped = (*report.dropped, ("time not after the file before it", over))
-    report = dataclasses.replace(report, kept=report.kept - over, dropped=dropped)
-    if not report.kept:
-        report = dataclasses.replace(report, error="no record kept: the files before it hold all its times")
-    return log.sliced(end_ns + 1, None), report
+def _all_dropped(report: FileReport, reason: str) -> FileReport:
+    dropped = (*report.dropped, (reason, report.kept)) if report.kept else report.dropped
+    return dataclasses.replace(report, kept=0, dropped=dropped)
+
+
+def _without_yielded(dive: list[Part]) -> list[Part]:
+    """The files of a dive, without the channels that one gives up since another has them."""
+    left = []
+    for part in dive:
+        other = {name for file in dive if file is not part for name in file.log.channels}
+        given = sorted(part.yields & other & part.log.channels.keys())
+        if given:
+            channels = {name: c for name, c in part.log.channels.items() if name not in given}
+            count = sum(len(part.log[name]) for name in given)
+            note = f"{', '.join(given)}: {count} values left out, another file of the dive gives them"
+            times = np.unique(np.concatenate([c.time_ns for c in channels.values()] or [part.record_ns[:0]]))
+            part = dataclasses.replace(
+                part,
+                log=dataclasses.replace(part.log, channels=channels),
+                report=dataclasses.replace(part.report, warnings=(*part.report.warnings, note)),
+            )
+            part = _keeping(part, np.isin(part.record_ns, times), "no other value than those left out")
+        left.append(part)
+    return left
+
+
+def _keeping(part: Part, kept: NDArray[np.bool_], reason: str) -> Part:
+    """A file with some of its records only, (n,); the others are counted."""
+    gone = int((~kept).sum())
+    if not gone:
+        return part
+    report = dataclasses.replace(
+        part.report, kept=part.report.kept - gone, dropped=(*part.report.dropped, (reason, gone))
+    )
+    return dataclasses.replace(part, report=report, record_ns=part.record_ns[kept])
+
+
+def _after(part: Part, reached: dict[str, int]) -> Part:
+    """The part of a file after all that earlier dives told of its channels; the rest is counted as dropped."""
+    end = max((reached[name] for name in part.log.channels if name in reached), default=None)
+    if end is None:
+        return part
+    if part.log.start_ns - end > FAR:
+        days = (part.log.start_ns - end) / FAR
+        note = f"starts {days:.1f} days after the file before it; joined all the same"
+        part = dataclasses.replace(
+            part, report=dataclasses.replace(part.report, warnings=(*part.report.warnings, note))
+        )
+    if part.log.start_ns > end:
+        return part
+    part = _keeping(part, part.record_ns > end, "time not after the file before it")
+    if not part.report.kept:
+        error = "no record kept: the files before it hold all its times"
+        part = dataclasses.replace(part, report=dataclasses.replace(part.report, error=error))
+    return dataclasses.replace(part, log=part.log.sliced(end + 1, None))
+
+
+def _interleaved(logs: list[Log]) -> Log | None:
+    """One log of the files of a dive; of two samples of a channel at one time the first file's is kept."""
+    if len(logs) < 2:
+        return logs[0] if logs else None
+    channels = {}
+    for name in dict.fromkeys(name for log in logs for name in log.channels):
+        parts = [log[name] for log in logs if name in log]
+        time_ns, first = np.unique(np.concatenate([part.time_ns for part in parts]), return_index=True)
+        values = np.concatenate([part.values for part in parts])[first]
+        channels[name] = Channel(name, time_ns, values, _origin(parts))
+    return Log(channels, logs[0].origin, _metadata(logs), _events(logs))
 
 
 def _one(logs: list[Log]) -> Log:
     """One log of several in time order that share no sample time of a channel."""
+    if len(logs) == 1:
+        return logs[0]
     channels = {}
     for name in dict.fromkeys(name for log in logs for name in log.channels):
         parts = [log[name] for log in logs if name in log]
         time_ns, values = (np.concatenate([getattr(p, field) for p in parts]) for field in ("time_ns", "values"))
-        origins = {part.origin for part in parts}
-        channels[name] = Channel(name, time_ns, values, "derived" if origins > {"derived"} else parts[0].origin)
-    metadata: dict[str, str] = {}
+        channels[name] = Channel(name, time_ns, values, _origin(parts))
+    return Log(channels, logs[0].origin, _metadata(logs), _events(logs))
+
+
+def _origin(parts: list[Channel]) -> Origin:
+    return "derived" if {part.origin for part in parts} > {"derived"} else parts[0].origin
+
+
+def _metadata(logs: list[Log]) -> dict[str, str]:
+    """The metadata of all; entries that differ stand one after the other, provenance is the first's."""
+    entries: dict[str, list[str]] = {}
     for log in logs:
         for key, value in log.metadata.items():
-            if key not in metadata:
-                metadata[key] = value
-            elif key != "provenance" and value not in metadata[key].split(" | "):
-                metadata[key] += f" | {value}"
-    events = tuple(sorted((e for log in logs for e in log.events), key=lambda event: event.time_ns))
-    return Log(channels, logs[0].origin, metadata, events)
+            entries.setdefault(key, []).append(value)
+    one = {key: values[0] for key, values in entries.items()}
+    told = {key: " | ".join(dict.fromkeys(values)) for key, values in entries.items() if key != "provenance"}
+    return one | told
+
+
+def _events(logs: list[Log]) -> tuple[Event, ...]:
+    return tuple(sorted((event for log in logs for event in log.events), key=lambda event: event.time_ns))

@@ -19,11 +19,13 @@ from glidercli.files import readable_file
 from glidercli.log import Channel, Event, Log, Origin
 from glidercli.logio.mcap_messages import EVENT_TOPIC, Array, decoded, field_names, message_class, template_of
 from glidercli.logio.mcap_writer import FORMAT, MAGIC
+from glidercli.logio.reader import Part
+from glidercli.logio.report import FileReport
 
 if TYPE_CHECKING:
     from mcap.summary import Summary
 
-__all__ = ["is_mcap", "read_mcap"]
+__all__ = ["is_mcap", "read_mcap", "read_mcap_log"]
 
 _MESSAGE, _FOOTER, _DATA_END = 0x05, 0x02, 0x0F  # opcodes
 _HEAD = 31  # bytes of a message record before its payload; its log time stands at byte 15
@@ -52,7 +54,15 @@ def is_mcap(path: Path) -> bool:
         return False
 
 
-def read_mcap(path: Path) -> Log:
+def read_mcap(path: Path) -> Part:
+    """The file's Log, and its account: a record is a time at which a channel has a sample."""
+    log = read_mcap_log(path)
+    times = [channel.time_ns for channel in log.channels.values()]
+    record_ns = np.unique(np.concatenate(times)) if times else np.array([], np.int64)
+    return Part(log, FileReport(path, "glider-mcap", len(record_ns), len(record_ns)), record_ns)
+
+
+def read_mcap_log(path: Path) -> Log:
     """The Log that `write_mcap` wrote, equal to the last bit: channels, origins, metadata, events.
 
     Raises InputError for a file that is no MCAP, was not written by glider, or is cut short or damaged.

@@ -7,21 +7,16 @@ import glob
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-import numpy as np
-
-from glidercli.errors import GliderError, InputError, UsageError
-from glidercli.files import readable_file
+from glidercli.errors import GliderError, InputError
 from glidercli.log import Log
-from glidercli.logio.csv_log import is_csv, read_csv
 from glidercli.logio.dead_reckoning import with_track
 from glidercli.logio.derived import with_derived
+from glidercli.logio.formats import FORMATS, check_format, format_of, read_file
 from glidercli.logio.joining import joined
+from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport
-from glidercli.logio.seaexplorer import is_seaexplorer, read_seaexplorer
 
-__all__ = ["FORMATS", "Reading", "read"]
-
-Reader = Callable[[Path], tuple[Log, FileReport]]
+__all__ = ["Reading", "read"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -32,27 +27,6 @@ class Reading:
     files: tuple[FileReport, ...]
 
 
-def _is_mcap(path: Path) -> bool:
-    from glidercli.logio.mcap_reader import is_mcap
-
-    return is_mcap(path)
-
-
-def _read_mcap(path: Path) -> tuple[Log, FileReport]:
-    from glidercli.logio.mcap_reader import read_mcap
-
-    log = read_mcap(path)
-    times = [channel.time_ns for channel in log.channels.values()]
-    records = len(np.unique(np.concatenate(times))) if times else 0
-    return log, FileReport(path, "glider-mcap", records, records)
-
-
-FORMATS: dict[str, tuple[Callable[[Path], bool], Reader]] = {
-    "glider-mcap": (_is_mcap, _read_mcap),
-    "seaexplorer": (is_seaexplorer, read_seaexplorer),
-    "glider-csv": (is_csv, read_csv),
-}
-"""Formats by name: whether a file is one, and its reader; asked in this order."""
 COMPANIONS = (".md", ".rst", ".txt", ".toml", ".json", ".py", ".png", ".svg", ".pdf", ".html", ".rrd")
 """Endings of what stands in a folder beside logs: notes, settings, pictures, outputs that are not read back."""
 
@@ -61,11 +35,15 @@ def read(
     paths: Sequence[str | Path],
     format: str | None = None,
     progress: Callable[[float, float], None] | None = None,
+    *,
+    cache: str | Path | None = None,
+    columns: str | Path | None = None,
 ) -> Reading:
     """The Log of files, folders and quoted globs, with what can be derived, and an account of every file.
 
     format : read every file as this format, whatever it looks like.
     progress : is told the files read and the files to read.
+    cache : folder of Slocum caches, asked after those beside a file. columns : TOML that maps the columns of tables.
 
     Raises
     ------
@@ -74,19 +52,20 @@ def read(
     UsageError
         No format of this name.
     """
-    if format is not None and format not in FORMATS:
-        raise UsageError(f"--format: {format} is no format; allowed: {', '.join(FORMATS)}")
+    check_format(format)
+    aids = Aids(None if cache is None else Path(cache), None if columns is None else Path(columns))
     files = _files(paths)
-    parts: list[tuple[Log, FileReport]] = []
+    parts: list[Part] = []
     reports = []
     for number, path in enumerate(files):
         if progress is not None:
             progress(number, len(files))
         try:
-            log, report = _read_one(path, format)
-            if log.channels:
-                parts.append((log, report))
-            else:
+            part = read_file(path, format, aids)
+            report = part.report
+            if part.log.channels:
+                parts.append(part)
+            elif report.error is None:
                 why = ", ".join(f"{count} {reason}" for reason, count in report.dropped)
                 report = dataclasses.replace(report, error="no usable record" + (f": {why}" if why else ""))
         except GliderError as error:
@@ -99,16 +78,8 @@ def read(
     log, whole = joined(parts)
     counted = {report.path: report for report in whole}
     reports = [counted.get(report.path, report) for report in reports]
-    if any(report.format == "seaexplorer" for report in reports):
-        log = with_track(with_derived(log)).with_metadata(
-            title=f"{log.metadata.get('platform', 'SeaExplorer')} log",
-            mass_position_zero="the actuator's own zero (LinPos), not the model's",
-            mass_rotation_note="mass_rotation = -AngPos: recorded roll follows AngPos, the model's rotation opposes it",
-            heading_note="taken as recorded, from true north; Declination is not added: where a file shows the "
-            "vehicle's own dead reckoning (sea063) it runs along the recorded heading to within 0.7 deg, Declination "
-            "being 6 deg; the GPS fixes of sea035 cannot tell",
-            phase_note="from the recorded NavState",
-        )
+    if not all(FORMATS[report.format].own for report in whole if report.format):
+        log = with_track(with_derived(log))
     return Reading(log, tuple(reports))
 
 
@@ -119,7 +90,7 @@ def _files(paths: Sequence[str | Path]) -> list[Path]:
         path = Path(given)
         if path.is_dir():
             inside = [p for p in sorted(path.iterdir()) if p.is_file() and not p.name.startswith(".")]
-            recognised = [p for p in inside if _format_of(p)]
+            recognised = [p for p in inside if format_of(p)]
             if not recognised:
                 raise InputError(path, f"holds no log; readable are {', '.join(FORMATS)}")
             found += [p for p in inside if p in recognised or not _is_companion(p)]
@@ -136,21 +107,3 @@ def _files(paths: Sequence[str | Path]) -> list[Path]:
 def _is_companion(path: Path) -> bool:
     """Whether a file of no known format only goes with the logs of its folder; another one is named as broken."""
     return path.suffix.lower() in COMPANIONS or path.name.upper().startswith(("README", "LICENSE", "LICENCE"))
-
-
-def _format_of(path: Path) -> str | None:
-    try:
-        return next((name for name, (recognises, _) in FORMATS.items() if recognises(path)), None)
-    except OSError:
-        return None
-
-
-def _read_one(path: Path, format: str | None) -> tuple[Log, FileReport]:
-    readable_file(path)
-    name = format or _format_of(path)
-    if name is None:
-        with path.open("rb") as stream:
-            packed = stream.read(2) == b"\x1f\x8b"
-        what = "is gzip data that unpack to no log: damaged, or not one" if packed else "is not a log that can be read"
-        raise InputError(path, f"{what}; readable are {', '.join(FORMATS)}")
-    return FORMATS[name][1](path)

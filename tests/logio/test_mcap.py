@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import InputError, OutputError
 from glidercli.log import Channel, Event, Log
-from glidercli.logio.mcap_reader import is_mcap, read_mcap
+from glidercli.logio.mcap_reader import is_mcap, read_mcap_log
 from glidercli.logio.mcap_writer import write_mcap
 
 START = 1_313_000_000_123_456_789
@@ -70,7 +70,7 @@ def logs(draw: st.DrawFn) -> Log:
 def test_a_log_comes_back_to_the_last_bit(log: Log, tmp_path_factory: pytest.TempPathFactory) -> None:
     path = tmp_path_factory.mktemp("mcap") / "a.mcap"
     write_mcap(log, path)
-    assert_same(read_mcap(path), log)
+    assert_same(read_mcap_log(path), log)
 
 
 def test_many_chunks_come_back(tmp_path: Path) -> None:
@@ -78,7 +78,7 @@ def test_many_chunks_come_back(tmp_path: Path) -> None:
     sparse = Channel("pitch", log["pitch"].time_ns[::7] + 3, -0.0 * np.ones(len(log["pitch"].time_ns[::7])), "derived")
     log = log.with_channels(sparse)
     write_mcap(log, tmp_path / "a.mcap")
-    assert_same(read_mcap(tmp_path / "a.mcap"), log)
+    assert_same(read_mcap_log(tmp_path / "a.mcap"), log)
 
 
 def test_the_bytes_depend_on_the_log_alone(tmp_path: Path) -> None:
@@ -96,7 +96,7 @@ def test_times_before_1970_are_refused(tmp_path: Path) -> None:
 def test_events_out_of_order_come_back_in_order(tmp_path: Path) -> None:
     first, second = Event("a", 5), Event("b", 9)
     write_mcap(Log({}, "measured", {}, (second, first)), tmp_path / "a.mcap")
-    assert read_mcap(tmp_path / "a.mcap").events == (first, second)
+    assert read_mcap_log(tmp_path / "a.mcap").events == (first, second)
 
 
 def test_is_mcap_goes_by_content(tmp_path: Path) -> None:
@@ -112,7 +112,7 @@ def test_what_is_no_mcap_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "a.mcap"
     path.write_text("time_utc,depth_m\n")
     with pytest.raises(InputError, match=r"a\.mcap: is no MCAP file"):
-        read_mcap(path)
+        read_mcap_log(path)
 
 
 def test_an_mcap_of_another_program_is_refused(tmp_path: Path) -> None:
@@ -127,7 +127,7 @@ def test_an_mcap_of_another_program_is_refused(tmp_path: Path) -> None:
         writer.add_message(channel, 1, b"{}", 1)
         writer.finish()
     with pytest.raises(InputError, match=r"a\.mcap: is an MCAP file that glider did not write"):
-        read_mcap(path)
+        read_mcap_log(path)
 
 
 @settings(deadline=None, max_examples=60)
@@ -138,7 +138,7 @@ def test_a_truncated_file_is_refused(part: float, tmp_path_factory: pytest.TempP
     whole = path.read_bytes()
     path.write_bytes(whole[: max(8, math.floor(part * len(whole)))])  # the magic bytes are left: it is an MCAP
     with pytest.raises(InputError, match=r"a\.mcap: is truncated .*pymcap-cli recover") as caught:
-        read_mcap(path)
+        read_mcap_log(path)
     assert "\n" not in str(caught.value)
 
 
@@ -152,7 +152,7 @@ def test_a_changed_byte_never_changes_a_value(part: float, flip: int, tmp_path_f
     data[math.floor(part * len(data))] ^= flip
     path.write_bytes(data)
     try:
-        back = read_mcap(path)
+        back = read_mcap_log(path)
     except InputError:
         return
     assert_same(back, log)  # bytes that nothing depends on
@@ -167,7 +167,7 @@ def test_most_of_a_cut_file_is_recovered(tmp_path: Path) -> None:
     command = [PYMCAP, "recover", tmp_path / "cut.mcap", "-o", tmp_path / "saved.mcap"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120)
     assert done.returncode == 3, done.stdout + done.stderr  # its code for "saved, with loss"
-    back = read_mcap(tmp_path / "saved.mcap")
+    back = read_mcap_log(tmp_path / "saved.mcap")
     n = len(back["depth"])
     assert n > 2500  # of 5000: three quarters less the chunk that was cut and the bulky first one
     assert back["depth"].values.tobytes() == log["depth"].values[:n].tobytes()

@@ -13,12 +13,20 @@ from conftest import ROOT
 
 from glidercli.channels import PHASES
 from glidercli.errors import InputError
+from glidercli.log import Log
 from glidercli.logio import read
+from glidercli.logio.report import FileReport
 from glidercli.logio.seaexplorer import read_seaexplorer
 
 LOGS = ROOT / "logs/seaexplorer-sea035"
 REAL = sorted([*LOGS.glob("*.sub.*"), *(ROOT / "tests/data/seaexplorer").glob("*.gz")])
 HEAD = "Timestamp;NavState;Heading;Declination;Pitch;Roll;Depth;Lat;Lon;BallastPos;LinPos;AngPos;"
+
+
+def read_one(path: Path) -> tuple[Log, FileReport]:
+    part = read_seaexplorer(path)
+    assert len(part.record_ns) == part.report.kept
+    return part.log, part.report
 
 
 def lines_of(path: Path) -> list[str]:
@@ -28,7 +36,7 @@ def lines_of(path: Path) -> list[str]:
 
 @pytest.mark.parametrize("path", REAL, ids=lambda path: path.name)
 def test_records_are_kept_or_dropped(path: Path) -> None:
-    _, report = read_seaexplorer(path)
+    _, report = read_one(path)
     assert report.records == sum(bool(line.strip()) for line in lines_of(path)[1:])
     assert report.records == report.kept + sum(count for _, count in report.dropped)
 
@@ -47,7 +55,7 @@ GOOD = [f"21/07/2019 10:0{i}:00;100;90.0;16;-20.0;5.0;{10 * i}.0;4854.5;-13036.2
 
 
 def test_units_and_signs(tmp_path: Path) -> None:
-    log, report = read_seaexplorer(write(tmp_path, *GOOD))
+    log, report = read_one(write(tmp_path, *GOOD))
     assert (report.records, report.kept, report.dropped) == (6, 6, ())
     assert log["pitch"].values[0] == pytest.approx(np.radians(-20.0))
     assert log["mass_position"].values[0] == pytest.approx(0.070)
@@ -80,14 +88,14 @@ def test_roll_follows_the_rotating_battery_on_real_dives() -> None:
     ],
 )
 def test_each_trap_is_dropped_by_name(tmp_path: Path, row: str, reason: str) -> None:
-    _, report = read_seaexplorer(write(tmp_path, *GOOD, row))
+    _, report = read_one(write(tmp_path, *GOOD, row))
     assert (report.records, report.kept) == (7, 6)
     assert report.dropped == ((reason, 1),)
 
 
 def test_single_cells_are_left_out_and_counted(tmp_path: Path) -> None:
     row = "21/07/2019 10:06:00;100;90.0;16;-200.0;9999;60.0;4854.5;-13036.2;-500;70;20;"
-    log, report = read_seaexplorer(write(tmp_path, *GOOD, row))
+    log, report = read_one(write(tmp_path, *GOOD, row))
     assert report.kept == 7
     assert len(log["pitch"]) == len(log["roll"]) == 6
     assert any("Pitch: 1 values outside -90..90" in warning for warning in report.warnings)
@@ -100,14 +108,14 @@ def test_only_changed_positions_at_the_surface_are_fixes(tmp_path: Path) -> None
         "21/07/2019 10:02:00;116;90.0;16;0;0;2.0;4854.600;-13036.200;0;70;0;",
         "21/07/2019 10:03:00;100;90.0;16;0;0;9.0;4854.700;-13036.200;0;70;0;",
     ]
-    log, _ = read_seaexplorer(write(tmp_path, *rows))
+    log, _ = read_one(write(tmp_path, *rows))
     assert log["latitude"].values.tolist() == [pytest.approx(48.91)]  # 48 deg 54.600 min
     assert log["longitude"].values.tolist() == [pytest.approx(-(130 + 36.2 / 60))]
 
 
 def test_leading_spaces_and_a_header_alone(tmp_path: Path) -> None:
     spaced = [row.replace(";", "; ") for row in GOOD]
-    assert read_seaexplorer(write(tmp_path, *spaced, head=HEAD.replace(";", "; ")))[1].kept == 6
+    assert read_one(write(tmp_path, *spaced, head=HEAD.replace(";", "; ")))[1].kept == 6
     with pytest.raises(InputError, match="no usable record"):
         read([write(tmp_path)])
 
@@ -126,7 +134,7 @@ def cells_of(path: Path) -> list[dict[str, str]]:
 
 @pytest.mark.parametrize("path", REAL, ids=lambda path: path.name)
 def test_samples_are_those_that_plain_csv_counts(path: Path) -> None:
-    log, report = read_seaexplorer(path)
+    log, report = read_one(path)
     rows = cells_of(path)
     assert report.kept == len(rows)  # none of these files holds a line that cannot be used
     ctd = "GPCTD" if "GPCTD_PRESSURE" in rows[0] else "LEGATO"
@@ -155,7 +163,7 @@ def test_salinity_is_that_of_the_instrument(yo: int) -> None:
 
 def test_a_clock_set_late_in_the_file_is_the_one_that_counts(tmp_path: Path) -> None:
     unset = [f"01/01/2018 00:00:{i:02d};100;90;16;-20;5;{i};4854.5;-13036.2;-500;70;20;" for i in range(30)]
-    log, report = read_seaexplorer(write(tmp_path, *unset, *GOOD))
+    log, report = read_one(write(tmp_path, *unset, *GOOD))
     assert report.dropped == (("clock not set: more than 30 days before the file's other times", 30),)
     assert report.kept == len(log["depth"]) == 6
     assert str(log["depth"].time_ns[0].astype("datetime64[ns]")).startswith("2019-07-21T10:00:00")
@@ -163,7 +171,7 @@ def test_a_clock_set_late_in_the_file_is_the_one_that_counts(tmp_path: Path) -> 
 
 def test_a_garbled_date_ahead_moves_no_clock(tmp_path: Path) -> None:
     garbled = GOOD[5].replace("21/07/2019", "21/07/2091")
-    _, report = read_seaexplorer(write(tmp_path, *GOOD[:5], garbled))
+    _, report = read_one(write(tmp_path, *GOOD[:5], garbled))
     assert report.dropped == (("time more than 30 days after the file's other times", 1),)
     assert report.kept == 5
 
@@ -179,7 +187,7 @@ def test_a_garbled_date_ahead_moves_no_clock(tmp_path: Path) -> None:
     ],
 )
 def test_cells_left_out_are_told_of(tmp_path: Path, old: str, new: str, words: str, channel: str) -> None:
-    log, report = read_seaexplorer(write(tmp_path, *GOOD[:5], GOOD[5].replace(old, new)))
+    log, report = read_one(write(tmp_path, *GOOD[:5], GOOD[5].replace(old, new)))
     assert report.records == report.kept == 6
     assert words in report.warnings
     assert len(log[channel]) == 5
@@ -188,7 +196,7 @@ def test_cells_left_out_are_told_of(tmp_path: Path, old: str, new: str, words: s
 def test_no_position_is_no_fix_and_a_blank_makes_none(tmp_path: Path) -> None:
     places = ["4854.500;-13036.200", "0;0", "4854.500;-13036.200", ";", "4854.500;-13036.200", "4854.700;-13036.200"]
     rows = [f"21/07/2019 10:0{i}:00;116;90.0;16;0;0;2.0;{place};0;70;0;" for i, place in enumerate(places)]
-    log, report = read_seaexplorer(write(tmp_path, *rows))
+    log, report = read_one(write(tmp_path, *rows))
     assert log["latitude"].values.tolist() == [pytest.approx(48 + 54.7 / 60)]
     assert report.warnings == ("Lat, Lon: 4 values left out that are no new fix at the surface, 1 kept",)
 
@@ -214,7 +222,7 @@ def test_conductivity_out_of_the_water_is_left_out(tmp_path: Path, row: str, wor
 
 def test_a_second_ctd_is_not_mixed_with_the_first(tmp_path: Path) -> None:
     head = "PLD_REALTIMECLOCK;GPCTD_TEMPERATURE;LEGATO_TEMPERATURE;"
-    log, report = read_seaexplorer(write(tmp_path, "21/07/2019 10:00:00;5;6;", head=head))
+    log, report = read_one(write(tmp_path, "21/07/2019 10:00:00;5;6;", head=head))
     assert log["temperature"].values.tolist() == [5.0]
     assert report.warnings == ("LEGATO_TEMPERATURE: 1 values left out, another CTD gives temperature",)
 
@@ -222,5 +230,5 @@ def test_a_second_ctd_is_not_mixed_with_the_first(tmp_path: Path) -> None:
 def test_bytes_that_are_no_text_make_no_extra_records(tmp_path: Path) -> None:
     path = write(tmp_path, *GOOD)
     path.write_bytes(path.read_bytes() + b"\x85\x0b\x0c\x1c;\x85\n")
-    _, report = read_seaexplorer(path)
+    _, report = read_one(path)
     assert (report.records, report.kept, report.dropped) == (7, 6, (("wrong number of fields", 1),))

@@ -16,8 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.log import Log
+from glidercli.logio.reader import Aids, Part
+from glidercli.logio.records import usable
 from glidercli.logio.report import FileReport
-from glidercli.logio.seaexplorer_channels import SENTINELS, channels_of
+from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, channels_of
 
 __all__ = ["is_seaexplorer", "read_seaexplorer"]
 
@@ -27,12 +29,12 @@ Times = NDArray[np.int64]
 NAVIGATION, PAYLOAD = "Timestamp", "PLD_REALTIMECLOCK"
 NAME = re.compile(r"(sea\d+)\.", re.IGNORECASE)
 """How a file's name begins; nothing inside the file tells the vehicle."""
+RECORDING = re.compile(
+    r"(?P<mission>sea\d+\.\d+)\.(?P<unit>gli|pld\d+)\.(?P<kind>sub|raw)\.(?P<dive>\d+)(\.gz)?$", re.IGNORECASE
+)
+"""A whole name. A raw file holds all that the sub file of the same unit and dive does, and more."""
 PIECE = 4096
 """Bytes unpacked at a time, so that what stands before a damage is not lost."""
-STRAY = 30 * 86400 * 10**9
-"""Times of one file that stand further apart than this are of two clocks, ns."""
-HELD = 3
-"""So many records show that a clock was set; fewer may be garbled."""
 
 
 def _text(data: bytes) -> tuple[str, bool]:
@@ -59,8 +61,8 @@ def is_seaexplorer(path: Path) -> bool:
     return first.split(";", 1)[0].strip() in (NAVIGATION, PAYLOAD) and ";" in first
 
 
-def read_seaexplorer(path: Path) -> tuple[Log, FileReport]:
-    """One navigation or payload file: its Log, and what was kept and dropped."""
+def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
+    """One navigation or payload file."""
     text, whole = _text(path.read_bytes())
     lines = text.lstrip("\ufeff\xef\xbb\xbf ").split("\n")
     names = [name.strip() for name in lines[0].split(";")]
@@ -80,18 +82,30 @@ def read_seaexplorer(path: Path) -> tuple[Log, FileReport]:
             rows.append(cells)
     time_ns = _times([row[0] for row in rows])
     table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if i > 0 and name}
-    good = _usable(time_ns, table, dropped)
+    known = {name: np.where(np.isin(values, SENTINELS), np.nan, values) for name, values in table.items()}
+    good = usable(time_ns, known, dropped)
     table = {name: values[good] for name, values in table.items()}
     channels, warnings = channels_of(time_ns[good], table)
     named = NAME.match(path.name)
     whose = {"platform": f"SeaExplorer {named[1]}"} if named else {}
-    log = Log({channel.name: channel for channel in channels if len(channel)}, "measured", whose)
-    kept = int(np.isin(time_ns[good], np.concatenate([c.time_ns for c in channels] or [time_ns[:0]])).sum())
-    if kept < good.sum():
-        dropped["no usable value"] += int(good.sum()) - kept
+    whose["title"] = f"{whose.get('platform', 'SeaExplorer')} log"
+    log = Log({channel.name: channel for channel in channels if len(channel)}, "measured", whose | NOTES)
+    kept = np.isin(time_ns[good], np.concatenate([c.time_ns for c in channels] or [time_ns[:0]]))
+    if not kept.all():
+        dropped["no usable value"] += int((~kept).sum())
     error = None if whole else "gzip data cut short or damaged: only what could be unpacked was read"
-    report = FileReport(path, "seaexplorer", records, kept, tuple(sorted(dropped.items())), tuple(warnings), error)
-    return log, report
+    report = FileReport(
+        path, "seaexplorer", records, int(kept.sum()), tuple(sorted(dropped.items())), tuple(warnings), error
+    )
+    recording = RECORDING.match(path.name)
+    return Part(
+        log,
+        report,
+        time_ns[good][kept],
+        dive=f"{recording['mission']}.{recording['dive']}".lower() if recording else "",
+        holds=(f"{recording['mission']}.{recording['unit']}.{recording['dive']}".lower(),) if recording else (),
+        fullness=int(recording is not None and recording["kind"].lower() == "raw"),
+    )
 
 
 def _times(texts: list[str]) -> Times:
@@ -111,43 +125,3 @@ def _numbers(texts: list[str]) -> Array:
     told = np.array([text.lower() not in ("", "nan") for text in texts], dtype=bool)
     values[told & np.isnan(values)] = np.inf
     return values
-
-
-def _usable(time_ns: Times, table: dict[str, Array], dropped: Counter[str]) -> NDArray[np.bool_]:
-    """Which records can be used; the others are counted by their reason."""
-    good: NDArray[np.bool_] = time_ns != np.iinfo(np.int64).min
-    dropped["time cannot be read"] += int((~good).sum())
-    if good.any():
-        first, last = _set_clock(time_ns[good])
-        before, after = good & (time_ns < first), good & (time_ns > last)
-        dropped["clock not set: more than 30 days before the file's other times"] += int(before.sum())
-        dropped["time more than 30 days after the file's other times"] += int(after.sum())
-        good &= ~(before | after)
-    cells = np.array(list(table.values())) if table else np.empty((0, len(time_ns)))
-    told = np.isfinite(cells) & ~np.isin(cells, SENTINELS)
-    blank = good & ~told.any(axis=0)
-    zero = good & ~blank & ((cells == 0.0) | ~told).all(axis=0)
-    dropped["no value"] += int(blank.sum())
-    dropped["all values zero"] += int(zero.sum())
-    good &= ~(blank | zero)
-    latest = np.iinfo(np.int64).min
-    for i in np.flatnonzero(good):
-        if time_ns[i] <= latest:
-            dropped["time repeats" if time_ns[i] == latest else "time goes back"] += 1
-            good[i] = False
-        latest = max(latest, int(time_ns[i]))
-    for reason in [reason for reason, count in dropped.items() if count == 0]:
-        del dropped[reason]
-    return good
-
-
-def _set_clock(time_ns: Times) -> tuple[int, int]:
-    """First and last time by the clock as it was set, ns.
-
-    A clock that is not set runs behind, and may do so for most of a file: of the groups of times that lie STRAY apart
-    the latest with HELD records counts; where none has as many, the largest.
-    """
-    ordered = np.sort(time_ns)
-    groups = np.split(ordered, np.flatnonzero(np.diff(ordered) > STRAY) + 1)[::-1]
-    group = next((g for g in groups if len(g) >= HELD), max(groups, key=len))
-    return int(group[0]), int(group[-1])

@@ -21,51 +21,48 @@ Signs and units as brought to channels.py:
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.channels import PHASES
 from glidercli.log import Channel
+from glidercli.logio.quantities import Quantity, channel_of, submerged, without_sentinels
 from glidercli.units import CM3, DBAR, DEGREE, MILLIMETRE
 
-__all__ = ["SENTINELS", "channels_of"]
+__all__ = ["NOTES", "SENTINELS", "channels_of"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
 
 SENTINELS = (9999.0, -9999.0)
 AT_SURFACE = 116
-SUBMERGED = 0.5
-"""Pressure in dbar below which the conductivity cell may be in air."""
-
-
-class Column(NamedTuple):
-    """How a column becomes a channel: value x factor, recorded values from low to high, in ``unit``, allowed."""
-
-    channel: str
-    factor: float
-    low: float
-    high: float
-    unit: str
 
 
 COLUMNS = {
-    "Heading": Column("heading", DEGREE, 0.0, 360.0, "deg"),
-    "Pitch": Column("pitch", DEGREE, -90.0, 90.0, "deg"),
-    "Roll": Column("roll", DEGREE, -180.0, 180.0, "deg"),
-    "Depth": Column("depth", 1.0, -5.0, 1500.0, "m"),
-    "BallastPos": Column("ballast_volume", CM3, -1000.0, 1000.0, "cm3"),
-    "LinPos": Column("mass_position", MILLIMETRE, -200.0, 200.0, "mm"),
-    "AngPos": Column("mass_rotation", -DEGREE, -180.0, 180.0, "deg"),
-    "GPCTD_TEMPERATURE": Column("temperature", 1.0, -3.0, 45.0, "degC"),
-    "GPCTD_CONDUCTIVITY": Column("conductivity", 1.0, 0.0, 7.5, "S/m"),
-    "GPCTD_PRESSURE": Column("pressure", DBAR, -2.0, 1500.0, "dbar"),
-    "LEGATO_TEMPERATURE": Column("temperature", 1.0, -3.0, 45.0, "degC"),
-    "LEGATO_CONDUCTIVITY": Column("conductivity", 0.1, 0.0, 75.0, "mS/cm"),
-    "LEGATO_PRESSURE": Column("pressure", DBAR, -2.0, 1500.0, "dbar"),
+    "Heading": Quantity("heading", DEGREE, 0.0, 360.0, "deg"),
+    "Pitch": Quantity("pitch", DEGREE, -90.0, 90.0, "deg"),
+    "Roll": Quantity("roll", DEGREE, -180.0, 180.0, "deg"),
+    "Depth": Quantity("depth", 1.0, -5.0, 1500.0, "m"),
+    "BallastPos": Quantity("ballast_volume", CM3, -1000.0, 1000.0, "cm3"),
+    "LinPos": Quantity("mass_position", MILLIMETRE, -200.0, 200.0, "mm"),
+    "AngPos": Quantity("mass_rotation", -DEGREE, -180.0, 180.0, "deg"),
+    "GPCTD_TEMPERATURE": Quantity("temperature", 1.0, -3.0, 45.0, "degC"),
+    "GPCTD_CONDUCTIVITY": Quantity("conductivity", 1.0, 0.0, 7.5, "S/m"),
+    "GPCTD_PRESSURE": Quantity("pressure", DBAR, -2.0, 1500.0, "dbar"),
+    "LEGATO_TEMPERATURE": Quantity("temperature", 1.0, -3.0, 45.0, "degC"),
+    "LEGATO_CONDUCTIVITY": Quantity("conductivity", 0.1, 0.0, 75.0, "mS/cm"),
+    "LEGATO_PRESSURE": Quantity("pressure", DBAR, -2.0, 1500.0, "dbar"),
 }
+NOTES = {
+    "mass_position_zero": "the actuator's own zero (LinPos), not the model's",
+    "mass_rotation_note": "mass_rotation = -AngPos: recorded roll follows AngPos, the model's rotation opposes it",
+    "heading_note": "taken as recorded, from true north; Declination is not added: where a file shows the vehicle's "
+    "own dead reckoning (sea063) it runs along the recorded heading to within 0.7 deg, Declination being 6 deg; the GPS "
+    "fixes of sea035 cannot tell",
+    "phase_note": "from the recorded NavState",
+}
+"""What a reader of the channels should know, as metadata of the log."""
 CTDS = ("GPCTD", "LEGATO")
 PHASE_OF_STATE = {100: "dive", 117: "climb", 110: "hover", 118: "hover", 115: "surface", 116: "surface"}
 
@@ -76,39 +73,29 @@ def channels_of(time_ns: Times, table: Mapping[str, Array]) -> tuple[list[Channe
     time_ns : (n,) UTC ns, strictly increasing. table : cells as recorded, (n,) each, by column name.
     """
     warnings: list[str] = []
-    used = {name: _known(name, table[name], warnings) for name in (*COLUMNS, "NavState", "Lat", "Lon") if name in table}
+    used = {
+        name: without_sentinels(name, table[name], SENTINELS, warnings)
+        for name in (*COLUMNS, "NavState", "Lat", "Lon")
+        if name in table
+    }
     _without_zeros(used, warnings)
     found: dict[str, Channel] = {}
     for name, column in COLUMNS.items():
         if name not in used:
             continue
-        given = np.isfinite(used[name])
-        inside = given & (used[name] >= column.low) & (used[name] <= column.high)
-        outside = int((given & ~inside).sum())
-        if outside:
-            warnings.append(f"{name}: {outside} values outside {column.low:g}..{column.high:g} {column.unit} left out")
-        if inside.any() and column.channel in found:
-            warnings.append(f"{name}: {int(inside.sum())} values left out, another CTD gives {column.channel}")
-        elif inside.any():
-            found[column.channel] = Channel(column.channel, time_ns[inside], used[name][inside] * column.factor)
+        channel = channel_of(name, time_ns, used[name], column, warnings)
+        if len(channel) and column.channel in found:
+            warnings.append(f"{name}: {len(channel)} values left out, another CTD gives {column.channel}")
+        elif len(channel):
+            found[column.channel] = channel
     if "conductivity" in found:
-        found["conductivity"] = _submerged(found["conductivity"], found.get("pressure"), warnings)
+        found["conductivity"] = submerged(found["conductivity"], found.get("pressure"), warnings)
     channels = list(found.values())
     if "NavState" in used:
         channels.append(_phase(time_ns, used["NavState"], warnings))
     if {"NavState", "Lat", "Lon"} <= used.keys():
         channels += _fixes(time_ns, used, warnings)
     return [channel for channel in channels if len(channel)], warnings
-
-
-def _known(name: str, cells: Array, warnings: list[str]) -> Array:
-    """The cells, NaN where they hold no value; texts and sentinels are counted."""
-    texts, sentinels = np.isinf(cells), np.isin(cells, SENTINELS)
-    if texts.any():
-        warnings.append(f"{name}: {int(texts.sum())} cells left out that are no number")
-    if sentinels.any():
-        warnings.append(f"{name}: {int(sentinels.sum())} cells of 9999 or -9999 left out, no value")
-    return np.where(texts | sentinels, np.nan, cells)
 
 
 def _without_zeros(used: dict[str, Array], warnings: list[str]) -> None:
@@ -154,19 +141,3 @@ def _degrees(value: Array) -> Array:
     """Degrees from ddmm.mmm, signed."""
     whole = np.floor(np.abs(value) / 100.0)
     return np.sign(value) * (whole + (np.abs(value) - 100.0 * whole) / 60.0)
-
-
-def _submerged(conductivity: Channel, pressure: Channel | None, warnings: list[str]) -> Channel:
-    """Conductivity where the cell was surely under water."""
-    told = np.array([], np.int64) if pressure is None else pressure.time_ns
-    wet = told if pressure is None else told[pressure.values >= SUBMERGED * DBAR]
-    under = np.isin(conductivity.time_ns, wet)
-    blind = int((~np.isin(conductivity.time_ns, told)).sum())
-    shallow = int((~under).sum()) - blind
-    if shallow:
-        warnings.append(
-            f"conductivity: {shallow} values at less than {SUBMERGED:g} dbar left out: the cell may be in air"
-        )
-    if blind:
-        warnings.append(f"conductivity: {blind} values without a pressure left out: the cell may be in air")
-    return Channel("conductivity", conductivity.time_ns[under], conductivity.values[under])

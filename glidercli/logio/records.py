@@ -1,0 +1,108 @@
+"""Which records of a file can be used? The others are dropped, each by a named rule, and counted.
+
+A record is a line, a row or a cycle: one time and the values noted at it. Rules, in this order: its time cannot be
+read; its clock was not set; it holds no value, or zeros alone; its time breaks the order of the others.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections import Counter
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["NO_TIME", "in_order", "usable"]
+
+Array = NDArray[np.float64]
+Times = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+NO_TIME = np.iinfo(np.int64).min
+"""Stands for a time that cannot be read."""
+STRAY = 30 * 86400 * 10**9
+"""Times of one file that stand further apart than this are of two clocks, ns."""
+HELD = 3
+"""So many records show that a clock was set; fewer may be garbled."""
+
+
+def usable(time_ns: Times, cells: Mapping[str, Array], dropped: Counter[str]) -> Mask:
+    """Which records can be used, (n,); the others are counted in ``dropped`` by their reason.
+
+    time_ns : (n,), UTC ns, NO_TIME where it cannot be read. cells : (n,) by column, not finite where there is no value.
+    """
+    good: Mask = time_ns != NO_TIME
+    _count(dropped, "time cannot be read", ~good)
+    if good.any():
+        first, last = _set_clock(time_ns[good])
+        before, after = good & (time_ns < first), good & (time_ns > last)
+        _count(dropped, "clock not set: more than 30 days before the file's other times", before)
+        _count(dropped, "time more than 30 days after the file's other times", after)
+        good &= ~(before | after)
+    told = np.zeros(len(time_ns), dtype=bool)
+    sized = np.zeros(len(time_ns), dtype=bool)
+    for values in cells.values():
+        finite = np.isfinite(values)
+        told |= finite
+        sized |= finite & (values != 0.0)
+    _count(dropped, "no value", good & ~told)
+    _count(dropped, "all values zero", good & told & ~sized)
+    good &= told & sized
+    good[good] = in_order(time_ns[good], dropped)
+    return good
+
+
+def _count(dropped: Counter[str], reason: str, which: Mask) -> None:
+    if count := int(which.sum()):
+        dropped[reason] += count
+
+
+def in_order(time_ns: Times, dropped: Counter[str]) -> Mask:
+    """The most records whose times increase, (n,); the others are counted in ``dropped``.
+
+    So a few records from a clock that jumped, ahead or back, do not take the rest with them. Of records with the same
+    time the first is kept.
+    """
+    kept = np.ones(len(time_ns), dtype=bool)
+    if (np.diff(time_ns) > 0).all():
+        return kept
+    kept = _longest_increasing(time_ns)
+    latest = np.maximum.accumulate(np.where(kept, time_ns, NO_TIME))
+    for time, before in zip(time_ns[~kept], latest[~kept], strict=True):
+        ahead = "time runs ahead of those after it"
+        dropped["time repeats" if time == before else "time goes back" if time < before else ahead] += 1
+    return kept
+
+
+def _longest_increasing(time_ns: Times) -> Mask:
+    """The longest strictly increasing subsequence, by patience sorting; of equal times the first."""
+    ends: list[int] = []  # the least last time of an increasing run of each length, and its place
+    places: list[int] = []
+    before = np.full(len(time_ns), -1)
+    for i, time in enumerate(time_ns.tolist()):
+        length = bisect_left(ends, time)
+        before[i] = places[length - 1] if length else -1
+        if length == len(ends):
+            ends.append(time)
+            places.append(i)
+        elif time < ends[length]:
+            ends[length], places[length] = time, i
+    kept = np.zeros(len(time_ns), dtype=bool)
+    i = places[-1]
+    while i >= 0:
+        kept[i] = True
+        i = int(before[i])
+    return kept
+
+
+def _set_clock(time_ns: Times) -> tuple[int, int]:
+    """First and last time by the clock as it was set, ns.
+
+    A clock that is not set runs behind, and may do so for most of a file: of the groups of times that lie STRAY apart
+    the latest with HELD records counts; where none has as many, the largest.
+    """
+    ordered = np.sort(time_ns)
+    groups = np.split(ordered, np.flatnonzero(np.diff(ordered) > STRAY) + 1)[::-1]
+    group = next((g for g in groups if len(g) >= HELD), max(groups, key=len))
+    return int(group[0]), int(group[-1])
