@@ -108,7 +108,7 @@ CHANNELS: dict[str, ChannelSpec] = {
     )
 }  # fmt: skip
 
-PHASES = ("surface", "dive", "climb", "hover")
+PHASES = ("surface", "dive", "climb", "hover", "inflection")
 """Flight phases; the phase channel holds indices, tables hold the words."""
 
 _BY_COLUMN = {spec.column: spec for spec in CHANNELS.values()}

@@ -9,7 +9,7 @@ import numpy as np
 
 from glidercli.compare.errors import table_values
 from glidercli.compare.facts import FLIGHT, Fact
-from glidercli.compare.phases import Interval, phases
+from glidercli.dives import Interval, phases
 from glidercli.log import Log
 from glidercli.units import NANOSECOND
 

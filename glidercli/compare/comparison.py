@@ -14,8 +14,8 @@ from glidercli.compare.align import Alignment, Method, align, shifted
 from glidercli.compare.errors import Errors, Residuals, residuals, statistics
 from glidercli.compare.events import EventPair, events_of, paired
 from glidercli.compare.facts import Facts
-from glidercli.compare.phases import LEGS, Interval, mask, phases
 from glidercli.compare.verdicts import FactVerdict, judged
+from glidercli.dives import LEGS, Interval, mask, phases
 from glidercli.errors import InputError
 from glidercli.log import Log
 

@@ -11,7 +11,7 @@ import dataclasses
 
 import numpy as np
 
-from glidercli.compare.phases import Interval
+from glidercli.dives import Interval
 from glidercli.log import Event, Log
 
 __all__ = ["EventPair", "events_of", "paired"]

@@ -40,7 +40,7 @@ from pathlib import Path
 from typing import Any
 
 from glidercli.channels import CHANNELS
-from glidercli.compare.phases import LEGS
+from glidercli.dives import LEGS
 from glidercli.errors import InputError
 from glidercli.files import read_toml
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from glidercli.compare.errors import on_circle, table_values
 from glidercli.compare.facts import FLIGHT, Fact, Facts
-from glidercli.compare.phases import Interval, phases
+from glidercli.dives import Interval, phases
 from glidercli.log import Log
 from glidercli.units import NANOSECOND
 

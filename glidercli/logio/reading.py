@@ -9,7 +9,6 @@ from pathlib import Path
 
 from glidercli.errors import GliderError, InputError
 from glidercli.log import Log
-from glidercli.logio.dead_reckoning import with_track
 from glidercli.logio.derived import with_derived
 from glidercli.logio.formats import FORMATS, check_format, format_of, read_file
 from glidercli.logio.joining import joined
@@ -79,7 +78,7 @@ def read(
     counted = {report.path: report for report in whole}
     reports = [counted.get(report.path, report) for report in reports]
     if not all(FORMATS[report.format].own for report in whole if report.format):
-        log = with_track(with_derived(log))
+        log = with_derived(log)
     return Reading(log, tuple(reports))
 
 

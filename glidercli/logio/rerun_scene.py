@@ -135,7 +135,7 @@ class Scene:
         phases = self.log.channels.get("phase")
         if phases is not None:
             at = np.maximum(np.searchsorted(phases.time_ns, self.times, side="right") - 1, 0)
-            meaning = "Track: dive blue, climb orange, surface green, hover violet."
+            meaning = "Track: dive blue, climb orange, surface green, hover violet, inflection gold."
             return phases.values[at].astype(np.int64), [*look.PHASE_COLOURS.values()], meaning
         deepest = max(float(self.track[:, 2].max()), 1.0)
         colours = [(200 - 4 * i, 240 - 6 * i, 245 - 2 * i) for i in range(32)]

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from glidercli.channels import PHASES
-from glidercli.compare.phases import mask, phases, turning_points
+from glidercli.dives import mask, phases, turning_points
 from glidercli.errors import InputError
 from glidercli.log import Log
 

@@ -105,7 +105,10 @@ def test_spaces_and_a_byte_order_mark_do_no_harm(tmp_path: Path) -> None:
     [
         ("elapsed_s,depth_m\n0,1\n\n1,x\n", "line 4: depth_m = 'x'; a number is needed"),
         ("elapsed_s,depth_m\n0,inf\n", "line 2: depth_m = 'inf'"),
-        ("elapsed_s,phase\n0,dive\n1,glide\n", "line 3: phase = 'glide'; allowed: surface, dive, climb, hover"),
+        (
+            "elapsed_s,phase\n0,dive\n1,glide\n",
+            "line 3: phase = 'glide'; allowed: surface, dive, climb, hover, inflection",
+        ),
         ("elapsed_s,depth_m\n0,1\n1e12,2\n", "line 3: the time cannot be read"),
         ("time_utc,depth_m\n0001-01-01T00:00:00Z,1\n", "line 2: the time cannot be read"),
         ("elapsed_s,depth_m\n0,1\n\n0,2\n", "line 4: the time does not increase"),

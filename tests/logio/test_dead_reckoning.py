@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from glidercli.log import Channel, Log
-from glidercli.logio.dead_reckoning import with_track
+from glidercli.logio.derived.track import with_track
 from glidercli.places import geodetic_of_track
 
 TIMES = np.arange(0, 1001, 10, dtype=np.int64) * 10**9

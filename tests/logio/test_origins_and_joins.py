@@ -17,8 +17,8 @@ from glidercli.channels import PHASES
 from glidercli.errors import InputError, OutputError
 from glidercli.log import Channel, Log
 from glidercli.logio import read, replay, write
-from glidercli.logio.dead_reckoning import with_track
-from glidercli.logio.derived import with_derived
+from glidercli.logio.derived.seawater import with_seawater
+from glidercli.logio.derived.track import with_track
 from glidercli.logio.report import FileReport
 from glidercli.logio.seaexplorer import read_seaexplorer
 
@@ -185,7 +185,7 @@ def test_density_without_a_place_makes_none_up() -> None:
     times = np.array([0, SECOND])
     given = {"conductivity": [4.0, 3.5], "temperature": [15.0, 5.0], "pressure": [1e5, 7e6]}
     water = {name: Channel(name, times, np.array(values)) for name, values in given.items()}
-    density = with_derived(Log(water, "measured"))["density"].values
+    density = with_seawater(Log(water, "measured"))["density"].values
     practical = gsw.SP_from_C(np.array([40.0, 35.0]), np.array([15.0, 5.0]), np.array([10.0, 700.0]))
     reference = gsw.rho_t_exact(practical * 35.16504 / 35.0, np.array([15.0, 5.0]), np.array([10.0, 700.0]))
     np.testing.assert_allclose(density, reference, rtol=1e-14)  # a few roundings

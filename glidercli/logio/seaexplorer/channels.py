@@ -60,11 +60,11 @@ NOTES = {
     "heading_note": "taken as recorded, from true north; Declination is not added: where a file shows the vehicle's "
     "own dead reckoning (sea063) it runs along the recorded heading to within 0.7 deg, Declination being 6 deg; the GPS "
     "fixes of sea035 cannot tell",
-    "phase_note": "from the recorded NavState",
+    "phase_note": "from the recorded NavState: 100 dive, 117 climb, 110 and 118 inflection, 115 and 116 surface",
 }
 """What a reader of the channels should know, as metadata of the log."""
 CTDS = ("GPCTD", "LEGATO")
-PHASE_OF_STATE = {100: "dive", 117: "climb", 110: "hover", 118: "hover", 115: "surface", 116: "surface"}
+PHASE_OF_STATE = {100: "dive", 117: "climb", 110: "inflection", 118: "inflection", 115: "surface", 116: "surface"}
 
 
 def channels_of(time_ns: Times, table: Mapping[str, Array]) -> tuple[list[Channel], list[str]]:

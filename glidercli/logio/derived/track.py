@@ -2,39 +2,42 @@
 
 Between samples the horizontal speed through water is |depth rate| / tan|pitch|: the path is taken to lie along the
 hull, the angle of attack (a few degrees) is left out. It is held at zero where pitch is below 5 deg or the depth rate
-below 0.02 m/s, since the quotient then says nothing, and at the surface. The integral along the heading misses each
-next fix; that closure is spread evenly over the time between the fixes, as a current would, drift at the surface
-included. Before the first and after the last fix nothing corrects it, and the note says for how long. All of it is
-derived, not measured.
+below 0.02 m/s, since the quotient then says nothing, and at the surface. What the integral along the heading misses
+at each next fix is made up for by closure.py. All of it is derived, not measured.
 """
 
 from __future__ import annotations
 
-import math
+import json
 
 import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.channels import PHASES
 from glidercli.log import Channel, Log
-from glidercli.logio.derived import LONGEST_GAP
+from glidercli.logio.derived.closure import Closure, Fixes, close
+from glidercli.logio.derived.motion import LONGEST_GAP
 from glidercli.places import track_of_geodetic
 from glidercli.units import DEGREE
 
 __all__ = ["with_track"]
 
 Array = NDArray[np.float64]
+Times = NDArray[np.int64]
 
 LEAST_PITCH = 5.0 * DEGREE
 LEAST_DEPTH_RATE = 0.02  # m/s
-LEAST_DIVE = 10.0  # m, depth between two fixes that makes a closure worth telling
 SURFACE = float(PHASES.index("surface"))
+MOST_TOLD = 4
+"""Closures told one by one in the note; more stand in the metadata alone."""
 
 
 def with_track(log: Log) -> Log:
     """The log with derived north, east and down, m, where depth, pitch and heading are there; else as it is.
 
     The origin is the first fix (metadata origin_latitude_deg, origin_longitude_deg), or the first sample without one.
+    North and east have a sample at every fix, too. The metadata ``closures`` holds a JSON list, an entry for each dive
+    between two fixes.
     """
     if not {"depth", "pitch", "heading"} <= log.channels.keys() or "north" in log:
         return log
@@ -63,49 +66,59 @@ def with_track(log: Log) -> Log:
             f"{int(gap.sum())} gaps longer than {LONGEST_GAP:.0f} s, {float(steps[gap].sum()):.0f} s in all, bridged "
             "by the closure alone"
         )
-    told: dict[str, str] = {}
-    if {"latitude", "longitude"} <= log.channels.keys():
-        north, east, told = _closed(log, times, z, north, east, notes)
-    else:
+    fixes, told = _fixes(log)
+    every = times
+    if fixes is None:
         notes.append("no GPS fix: not corrected for current")
-    track = [Channel(n, times, v, "derived") for n, v in (("north", north), ("east", east), ("down", z))]
+    else:
+        every, north, east, closures = close(fixes, times, z, north, east)
+        notes += _told(closures) + _uncorrected(fixes.time_ns, times)
+        told["closures"] = json.dumps([closure.document() for closure in closures])
+    track = (
+        Channel("north", every, north, "derived"),
+        Channel("east", every, east, "derived"),
+        Channel("down", times, z, "derived"),
+    )
     return log.with_channels(*track).with_metadata(**told, track_note="; ".join(notes))
 
 
-def _closed(
-    log: Log, times: NDArray[np.int64], z: Array, north: Array, east: Array, notes: list[str]
-) -> tuple[Array, Array, dict[str, str]]:
-    """The track moved so that it passes through every fix, the closure spread linearly in time between fixes."""
+def _fixes(log: Log) -> tuple[Fixes | None, dict[str, str]]:
+    """The GPS fixes about the first one, and where that is."""
+    if not {"latitude", "longitude"} <= log.channels.keys():
+        return None, {}
     latitude, longitude = log["latitude"], log["longitude"]
-    every = np.intersect1d(latitude.time_ns, longitude.time_ns)
-    fixed = np.intersect1d(every, times)
-    if len(fixed) < len(every):
-        notes.append(f"{len(every) - len(fixed)} fixes not used: no depth, pitch and heading at their times")
-    lat, lon = (c.values[np.searchsorted(c.time_ns, fixed)] for c in (latitude, longitude))
-    if len(fixed) == 0:
-        notes.append("no GPS fix at the times of the track: not corrected for current")
-        return north, east, {}
-    north_fix, east_fix = track_of_geodetic(lat, lon, lat[0], lon[0])
-    at = np.searchsorted(times, fixed)
-    miss_north, miss_east = north_fix - north[at], east_fix - east[at]
-    for i in [i for i in range(len(at) - 1) if z[at[i] : at[i + 1]].max() >= LEAST_DIVE]:
-        span = (fixed[i + 1] - fixed[i]) * 1e-9
-        v_north, v_east = ((m[i + 1] - m[i]) / span for m in (miss_north, miss_east))
-        notes.append(
-            f"closure over {span:.0f} s from {_clock(fixed[i])}: "
-            f"{math.hypot(v_north, v_east) * span:.0f} m, a depth-averaged current of {v_east:.3f} m/s east, "
-            f"{v_north:.3f} m/s north"
-        )
+    times = np.intersect1d(latitude.time_ns, longitude.time_ns)
+    if not len(times):
+        return None, {}
+    lat, lon = (c.values[np.searchsorted(c.time_ns, times)] for c in (latitude, longitude))
+    north, east = track_of_geodetic(lat, lon, lat[0], lon[0])
+    place = {"origin_latitude_deg": repr(float(lat[0])), "origin_longitude_deg": repr(float(lon[0]))}
+    return Fixes(times, north, east), place
+
+
+def _told(closures: list[Closure]) -> list[str]:
+    """The closures in words: each, or the largest of many."""
+    if len(closures) <= MOST_TOLD:
+        return [closure.told() for closure in closures]
+    errors = np.array([closure.error for closure in closures])
+    worst = closures[int(errors.argmax())]
+    return [
+        f"{len(closures)} closures between fixes, {np.median(errors):.0f} m in the middle; the largest: {worst.told()}"
+    ]
+
+
+def _uncorrected(fixed: Times, times: Times) -> list[str]:
+    """For how long before the first and after the last fix nothing corrects the track."""
     head, tail = (fixed[0] - times[0]) * 1e-9, (times[-1] - fixed[-1]) * 1e-9
+    notes = []
     if head > 0.0:
         notes.append(f"not corrected for current in the {head:.0f} s before the first fix, {_clock(fixed[0])}")
     if tail > 0.0:
         notes.append(f"not corrected for current in the {tail:.0f} s after the last fix, {_clock(fixed[-1])}")
-    told = {"origin_latitude_deg": repr(float(lat[0])), "origin_longitude_deg": repr(float(lon[0]))}
-    return north + np.interp(times, fixed, miss_north), east + np.interp(times, fixed, miss_east), told
+    return notes
 
 
-def _at_surface(log: Log, times: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _at_surface(log: Log, times: Times) -> NDArray[np.bool_]:
     """Whether the phase sampled at each time is surface; False where none is sampled."""
     afloat = np.zeros(len(times), dtype=bool)
     if "phase" in log:

@@ -1,0 +1,15 @@
+"""What follows from recorded channels alone? Each is marked as derived, and a note of the log says how."""
+
+from __future__ import annotations
+
+from glidercli.log import Log
+from glidercli.logio.derived.motion import with_motion
+from glidercli.logio.derived.seawater import with_seawater
+from glidercli.logio.derived.track import with_track
+
+__all__ = ["with_derived"]
+
+
+def with_derived(log: Log) -> Log:
+    """The log with what can be had and is not there: depth, vertical speed, phase, salinity, density, track."""
+    return with_track(with_seawater(with_motion(log)))

@@ -1,0 +1,74 @@
+"""How did it move up and down? Depth where only pressure is recorded, vertical speed, and the phase of flight."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from glidercli.channels import PHASES
+from glidercli.dives import LEGS, mask, phases
+from glidercli.log import Channel, Log
+from glidercli.units import DBAR
+
+__all__ = ["AFLOAT", "LONGEST_GAP", "with_motion"]
+
+LONGEST_GAP = 300.0
+"""s; nothing is derived across a longer gap between samples."""
+AFLOAT = 3.0
+"""m; a turn shallower than this is at the surface: masts and antennas reach down 1 to 2 m, and waves 1 m more."""
+
+
+def with_motion(log: Log) -> Log:
+    """The log with depth (from pressure), vertical speed and phase (from depth), where it lacks them."""
+    notes = {}
+    if "depth" not in log and "pressure" in log:
+        depth, notes["depth_note"] = _depth(log)
+        log = log.with_channels(depth)
+    if "depth" in log and "vertical_speed" not in log:
+        speed = _vertical_speed(log["depth"])
+        if len(speed):
+            log = log.with_channels(speed)
+            notes["vertical_speed_note"] = (
+                f"derived: central difference of depth, none beside a gap of more than {LONGEST_GAP:.0f} s"
+            )
+    if "depth" in log and "phase" not in log:
+        phase = _phase(log)
+        if len(phase):
+            log = log.with_channels(phase)
+            notes["phase_note"] = (
+                "derived from depth: dives and climbs lie between turns of at least 5 m, or a tenth of the depth range "
+                f"if that is less; a turn above {AFLOAT:g} m is surface, a deeper one inflection"
+            )
+    return log.with_metadata(**notes)
+
+
+def _depth(log: Log) -> tuple[Channel, str]:
+    """Depth by TEOS-10 from pressure, m, and how."""
+    import gsw
+
+    pressure = log["pressure"]
+    known = "latitude" in log
+    latitude = float(np.median(log["latitude"].values)) if known else 45.0
+    depth = Channel("depth", pressure.time_ns, -gsw.z_from_p(pressure.values / DBAR, latitude), "derived")
+    place = "at the median latitude" if known else "at latitude 45 deg, none is known: up to 0.27 % off at the poles"
+    return depth, f"derived from pressure by TEOS-10 {place}"
+
+
+def _vertical_speed(depth: Channel) -> Channel:
+    """Central difference of depth by time, m/s, positive down; left out beside a long gap."""
+    time = depth.time_ns * 1e-9
+    ahead, behind = np.diff(time)[1:], np.diff(time)[:-1]
+    near = (ahead <= LONGEST_GAP) & (behind <= LONGEST_GAP)
+    speed = (depth.values[2:] - depth.values[:-2]) / (ahead + behind) if len(depth) > 2 else np.array([])
+    return Channel("vertical_speed", depth.time_ns[1:-1][near], speed[near], "derived")
+
+
+def _phase(log: Log) -> Channel:
+    """Phase at every depth sample; none where the log neither dives nor climbs."""
+    depth = log["depth"]
+    intervals = phases(log)
+    if not intervals:
+        return Channel("phase", depth.time_ns[:0], depth.values[:0], "derived")
+    turning = np.where(depth.values < AFLOAT, PHASES.index("surface"), PHASES.index("inflection")).astype(float)
+    for leg in LEGS:
+        turning[mask(depth.time_ns, intervals, leg)] = PHASES.index(leg)
+    return Channel("phase", depth.time_ns, turning, "derived")
