@@ -33,12 +33,8 @@ VIOLET, GOLD, GREY, TEAL = (184, 140, 255), (240, 208, 90), (170, 178, 190), (90
 SEA, SEA_LINES, HULL, FINS = (70, 150, 210, 36), (110, 180, 230, 90), (250, 205, 70, 45), (236, 120, 50, 255)
 
 PHASE_COLOURS: dict[str, Colour] = {
-    "surface": GREEN,
-    "dive": BLUE,
-    "climb": ORANGE,
-    "hover": VIOLET,
-    "inflection": GOLD,
-}
+    "surface": GREEN, "dive": BLUE, "climb": ORANGE, "hover": VIOLET, "inflection": GOLD,
+}  # fmt: skip
 
 PLOTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("Flight", "depth, m (negative down)", ("depth",)),

@@ -118,9 +118,9 @@ def close(fixes: Fixes, times: Times, z: Array, north: Array, east: Array) -> tu
             last = miss[i + 1] - _way(drifts[i + 1], end - up)
             current = (last - first) / ((up - down) * 1e-9)
             way = math.hypot(n[i + 1] - n[i], e[i + 1] - e[i])
-            closures.append(
-                Closure(start, end, (up - down) * 1e-9, way, *map(float, current), drifts[i], drifts[i + 1])
-            )
+            u_north, u_east = map(float, current)
+            submerged = (up - down) * 1e-9
+            closures.append(Closure(start, end, submerged, way, u_north, u_east, drifts[i], drifts[i + 1]))
             knots += [(down, first), (up, last)]
         knots.append((end, miss[i + 1]))
     every = np.union1d(times, fixes.time_ns)

@@ -43,17 +43,18 @@ def _shared(log: Log, *names: str) -> tuple[Times, list[Array]]:
 
 
 def _with(log: Log, name: str, times: Times, values: Array) -> tuple[Log, bool]:
+    """The log with a derived channel, and whether any of its values is finite."""
     good = np.isfinite(values)
-    return (
-        (log.with_channels(Channel(name, times[good], values[good], "derived")), True) if good.any() else (log, False)
-    )
+    if not good.any():
+        return log, False
+    return log.with_channels(Channel(name, times[good], values[good], "derived")), True
 
 
 def _salinity(c: Array, t: Array, p: Array) -> Array:
     """Practical salinity of conductivity, S/m, temperature, degC, and pressure, Pa."""
     import gsw
 
-    return gsw.SP_from_C(c * 10.0, t, np.maximum(p / DBAR, 0.0))  # mS/cm
+    return np.asarray(gsw.SP_from_C(c * 10.0, t, np.maximum(p / DBAR, 0.0)))  # mS/cm
 
 
 def _density(log: Log, times: Times, s: Array, t: Array, p: Array) -> tuple[Array, str]:

@@ -102,9 +102,8 @@ def _told(closures: list[Closure]) -> list[str]:
         return [closure.told() for closure in closures]
     errors = np.array([closure.error for closure in closures])
     worst = closures[int(errors.argmax())]
-    return [
-        f"{len(closures)} closures between fixes, {np.median(errors):.0f} m in the middle; the largest: {worst.told()}"
-    ]
+    middle = f"{np.median(errors):.0f} m in the middle"
+    return [f"{len(closures)} closures between fixes, {middle}; the largest: {worst.told()}"]
 
 
 def _uncorrected(fixed: Times, times: Times) -> list[str]:

@@ -58,8 +58,8 @@ NOTES = {
     "mass_position_zero": "the actuator's own zero (LinPos), not the model's",
     "mass_rotation_note": "mass_rotation = -AngPos: recorded roll follows AngPos, the model's rotation opposes it",
     "heading_note": "taken as recorded, from true north; Declination is not added: where a file shows the vehicle's "
-    "own dead reckoning (sea063) it runs along the recorded heading to within 0.7 deg, Declination being 6 deg; the GPS "
-    "fixes of sea035 cannot tell",
+    "own dead reckoning (sea063) it runs along the recorded heading to within 0.7 deg, Declination being 6 deg; the "
+    "GPS fixes of sea035 cannot tell",
     "phase_note": "from the recorded NavState: 100 dive, 117 climb, 110 and 118 inflection, 115 and 116 surface",
 }
 """What a reader of the channels should know, as metadata of the log."""
