@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
+import os
 from collections.abc import Mapping
 from pathlib import Path
 
 from glidercli.log import Log
 
-__all__ = ["LogsIn", "read_logs"]
+__all__ = ["LogsIn", "cores", "read_logs"]
+
+
+def cores() -> int:
+    """Processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 @dataclasses.dataclass(frozen=True)
@@ -27,7 +33,7 @@ def read_logs(wanted: Mapping[str, str | None]) -> LogsIn:
         return LogsIn({}, [], [])
     from glidercli.logio import read
 
-    readings = {path: read([path]) for path in dict.fromkeys(given.values())}
+    readings = {path: read([path], workers=cores()) for path in dict.fromkeys(given.values())}
     reports = [report for reading in readings.values() for report in reading.files]
     warnings = [f"{report.path}: {line}" for report in reports for line in report.warnings]
     warnings += [f"{report.path}: {report.error}" for report in reports if report.error]

@@ -25,6 +25,13 @@ EquationsOption = Annotated[
     Equations,
     typer.Option("--equations", help="full: the whole model; paper: as printed, CA and the shear term left out."),
 ]
+FormatOption = Annotated[str | None, typer.Option("--format", metavar="NAME", help="Read every file as this format.")]
+CacheOption = Annotated[
+    Path | None, typer.Option("--cache", metavar="DIR", help="Folder of Slocum caches, beside those by the files.")
+]
+ColumnsOption = Annotated[
+    Path | None, typer.Option("--columns", metavar="FILE.toml", help="What the columns of plain tables are.")
+]
 
 
 def output_option(endings: str) -> typer.models.OptionInfo:

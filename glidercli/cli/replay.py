@@ -8,14 +8,16 @@ from typing import Annotated, Any
 
 import typer
 
-from glidercli.cli.options import Debug, Force, Json, Quiet, output_option
+from glidercli.cli.options import CacheOption, ColumnsOption, Debug, Force, FormatOption, Json, Quiet, output_option
 
 
 def replay(
     log: Annotated[
         list[str], typer.Argument(metavar="LOG...", help="Files, folders or quoted globs.", show_default=False)
     ],
-    format: Annotated[str | None, typer.Option(metavar="NAME", help="Read every file as this format.")] = None,
+    format: FormatOption = None,
+    cache: CacheOption = None,
+    columns: ColumnsOption = None,
     start: Annotated[str | None, typer.Option(metavar="T", help="From: ISO 8601 UTC, or s since the start.")] = None,
     end: Annotated[str | None, typer.Option(metavar="T", help="To, not included: ISO 8601 UTC, or s.")] = None,
     strict: Annotated[bool, typer.Option("--strict", help="A file that cannot be read is a failure.")] = False,
@@ -26,6 +28,7 @@ def replay(
     debug: Debug = False,
 ) -> None:
     """Recorded field logs: what they hold, and into MCAP, Rerun and CSV."""
+    from glidercli.cli.logs_in import cores
     from glidercli.cli.outputs import check_log_outputs, write_log
     from glidercli.cli.printing import json_text, say, warn
     from glidercli.cli.progress import progress
@@ -36,8 +39,8 @@ def replay(
     files = [path for path in outputs if path != Path("-")]
     with progress("reading", "files", quiet) as bar:
         played = play(
-            log, files, format=format, start=start, end=end, strict=strict, force=force, progress=bar.tell,
-            stage=bar.stage,
+            log, files, format=format, start=start, end=end, strict=strict, force=force, cache=cache, columns=columns,
+            workers=cores(), progress=bar.tell, stage=bar.stage,
         )  # fmt: skip
     warn((f"{report.path}: {report.error}" for report in played.broken), quiet)
     for path in files:

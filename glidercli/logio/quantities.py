@@ -57,7 +57,8 @@ def channel_of(
         warnings.append(
             f"{name}: {outside} values outside {quantity.low:g}..{quantity.high:g} {quantity.unit} left out"
         )
-    return Channel(quantity.channel, time_ns[inside], values[inside] * quantity.factor, origin)
+    times = time_ns if inside.all() else time_ns[inside]  # shared, not copied, where nothing is left out
+    return Channel(quantity.channel, times, values[inside] * quantity.factor, origin)
 
 
 def submerged(conductivity: Channel, pressure: Channel | None, warnings: list[str]) -> Channel:

@@ -37,6 +37,7 @@ class Part:
     holds : names of the recordings that the file holds, such as "sea035.12.gli.36"; a file whose recordings are all in
     others is left out in favour of the fullest.
     fullness : of several files that hold the same, the one with the most counts.
+    partner : name of the recording that a file beside this one usually holds, or "".
     yields : channels that are given up where another file of the dive has them.
     """
 
@@ -47,6 +48,7 @@ class Part:
     holds: tuple[str, ...] = ()
     fullness: int = 0
     yields: frozenset[str] = frozenset()
+    partner: str = ""
 
 
 @dataclasses.dataclass(frozen=True)

@@ -7,23 +7,30 @@ import glob
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from glidercli.errors import GliderError, InputError
+from glidercli.errors import InputError
 from glidercli.log import Log
 from glidercli.logio.derived import with_derived
-from glidercli.logio.formats import FORMATS, check_format, format_of, read_file
+from glidercli.logio.formats import FORMATS, check_format, format_of
 from glidercli.logio.joining import joined
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport
+from glidercli.logio.spreading import read_all
 
 __all__ = ["Reading", "read"]
 
 
 @dataclasses.dataclass(frozen=True)
 class Reading:
-    """A log, and the account of every file that it came from."""
+    """A log, and the account of every file that it came from.
+
+    dives : names of the dives that the files tell. partners : recordings that usually stand beside one that was read
+    and are missing, each with that one.
+    """
 
     log: Log
     files: tuple[FileReport, ...]
+    dives: tuple[str, ...] = ()
+    partners: tuple[tuple[str, str], ...] = ()
 
 
 COMPANIONS = (".md", ".rst", ".txt", ".toml", ".json", ".py", ".png", ".svg", ".pdf", ".html", ".rrd")
@@ -37,12 +44,15 @@ def read(
     *,
     cache: str | Path | None = None,
     columns: str | Path | None = None,
+    workers: int = 1,
 ) -> Reading:
     """The Log of files, folders and quoted globs, with what can be derived, and an account of every file.
 
     format : read every file as this format, whatever it looks like.
     progress : is told the files read and the files to read.
     cache : folder of Slocum caches, asked after those beside a file. columns : TOML that maps the columns of tables.
+    workers : processes that many files are spread over; a script that asks for more than one needs the usual guard
+    ``if __name__ == "__main__"``.
 
     Raises
     ------
@@ -55,31 +65,26 @@ def read(
     aids = Aids(None if cache is None else Path(cache), None if columns is None else Path(columns))
     files = _files(paths)
     parts: list[Part] = []
-    reports = []
-    for number, path in enumerate(files):
-        if progress is not None:
-            progress(number, len(files))
-        try:
-            part = read_file(path, format, aids)
-            report = part.report
-            if part.log.channels:
-                parts.append(part)
-            elif report.error is None:
-                why = ", ".join(f"{count} {reason}" for reason, count in report.dropped)
-                report = dataclasses.replace(report, error="no usable record" + (f": {why}" if why else ""))
-        except GliderError as error:
-            report = FileReport(path, None, 0, 0, error=str(error).removeprefix(f"{path}: "))
-        reports.append(report)
+    reports: dict[Path, FileReport] = {}
+    for found in read_all(files, format, aids, progress, workers):
+        if isinstance(found, Part):
+            reports[found.report.path] = found.report
+            parts.append(found)
+        else:
+            reports[found.path] = found
     if not parts:
-        first = reports[0]
-        more = f" (and {len(reports) - 1} more files)" if len(reports) > 1 else ""
+        first = reports[files[0]]
+        more = f" (and {len(files) - 1} more files)" if len(files) > 1 else ""
         raise InputError(first.path, f"{first.error}{more}")
     log, whole = joined(parts)
-    counted = {report.path: report for report in whole}
-    reports = [counted.get(report.path, report) for report in reports]
+    reports |= {report.path: report for report in whole}
     if not all(FORMATS[report.format].own for report in whole if report.format):
         log = with_derived(log)
-    return Reading(log, tuple(reports))
+    dives = tuple(dict.fromkeys(part.dive for part in parts if part.dive))
+    held = {name for part in parts for name in part.holds}
+    held |= {""}
+    partners = tuple((part.partner, part.report.path.name) for part in parts if part.partner not in held)
+    return Reading(log, tuple(reports[path] for path in files), dives, partners)
 
 
 def _files(paths: Sequence[str | Path]) -> list[Path]:

@@ -74,6 +74,9 @@ def replay(
     end: str | None = None,
     strict: bool = False,
     force: bool = False,
+    cache: str | Path | None = None,
+    columns: str | Path | None = None,
+    workers: int = 1,
     progress: Callable[[float, float], None] | None = None,
     stage: Callable[[str], None] | None = None,
 ) -> Replay:
@@ -82,14 +85,14 @@ def replay(
     Parameters
     ----------
     paths : files, folders, globs. outputs : files; the ending picks the writer.
-    format : read every file as this format.
+    format, cache, columns, workers : as for ``read``.
     start, end : ISO 8601 UTC, or seconds since the log's first sample; the part with start <= time < end is taken.
     strict : a file that cannot be read, or not as a whole, is an InputError, and nothing is written.
     progress : is told the files read and the files to read. stage : is told what is done after that.
     """
     targets = [Path(path) for path in outputs]
     check_outputs(targets, SUFFIXES, force)
-    reading = read(paths, format, progress)
+    reading = read(paths, format, progress, cache=cache, columns=columns, workers=workers)
     log = reading.log
     broken = [report for report in reading.files if report.error is not None]
     if strict and broken:

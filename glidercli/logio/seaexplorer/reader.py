@@ -105,7 +105,16 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
         dive=f"{recording['mission']}.{recording['dive']}".lower() if recording else "",
         holds=(f"{recording['mission']}.{recording['unit']}.{recording['dive']}".lower(),) if recording else (),
         fullness=int(recording is not None and recording["kind"].lower() == "raw"),
+        partner=_partner(recording),
     )
+
+
+def _partner(recording: re.Match[str] | None) -> str:
+    """The payload recording beside a navigation one, and the other way round."""
+    if recording is None:
+        return ""
+    unit = "pld1" if recording["unit"].lower() == "gli" else "gli"
+    return f"{recording['mission']}.{unit}.{recording['dive']}".lower()
 
 
 def _times(texts: list[str]) -> Times:

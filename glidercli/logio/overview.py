@@ -1,0 +1,171 @@
+"""What does a recording hold? Its span, each channel's sampling and gaps, its dives, and what is missing of it."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import re
+from typing import Any
+
+import numpy as np
+
+from glidercli.channels import CHANNELS
+from glidercli.dives import phases
+from glidercli.log import Channel, Log
+from glidercli.logio.reading import Reading
+from glidercli.logio.replaying import iso
+from glidercli.logio.report import FileReport
+
+__all__ = ["Overview", "Sampling", "Yo", "overview"]
+
+MANY = 5.0
+"""Intervals between samples of so many times the usual one, and of more than a minute, are gaps."""
+LEAST_GAP = 60.0  # s
+USUAL = (
+    "depth", "pitch", "roll", "heading", "latitude", "temperature", "salinity", "mass_position", "ballast_volume",
+)  # fmt: skip
+"""Channels that a glider usually records; without one of them something cannot be done."""
+INSTEAD = {"ballast_volume": ("net_buoyancy",), "salinity": ("conductivity", "absolute_salinity")}
+
+
+@dataclasses.dataclass(frozen=True)
+class Sampling:
+    """How a channel is sampled.
+
+    interval : usual time between samples, s (median), None of a single one. gaps : longer ones, see MANY.
+    longest : the longest time between samples, s, and after_ns : the sample before it.
+    """
+
+    channel: Channel
+    interval: float | None
+    gaps: int
+    longest: float | None
+    after_ns: int | None
+
+    def document(self) -> dict[str, Any]:
+        """As JSON."""
+        spec, values = CHANNELS[self.channel.name], self.channel.values
+        ordered = self.channel.name != "phase"  # its codes stand for words
+        return {
+            "name": spec.column,
+            "unit": spec.column_unit,
+            "origin": self.channel.origin,
+            "samples": len(self.channel),
+            "first": iso(self.channel.time_ns[0]),
+            "last": iso(self.channel.time_ns[-1]),
+            "interval_s": self.interval,
+            "gaps": self.gaps,
+            "longest_gap_s": self.longest,
+            "longest_gap_after": None if self.after_ns is None else iso(self.after_ns),
+            "minimum": float(values.min()) * spec.factor if ordered else None,
+            "maximum": float(values.max()) * spec.factor if ordered else None,
+        }
+
+
+@dataclasses.dataclass(frozen=True)
+class Yo:
+    """A dive and the climb after it; times UTC ns, depth m."""
+
+    start_ns: int
+    end_ns: int
+    deepest: float
+
+    def document(self) -> dict[str, Any]:
+        """As JSON."""
+        return {
+            "start": iso(self.start_ns),
+            "end": iso(self.end_ns),
+            "duration_s": (self.end_ns - self.start_ns) * 1e-9,
+            "deepest_m": self.deepest,
+        }
+
+
+@dataclasses.dataclass(frozen=True)
+class Overview:
+    """What a recording holds. missing : what one would look for and not find, a line each."""
+
+    log: Log
+    files: tuple[FileReport, ...]
+    channels: tuple[Sampling, ...]
+    dives: tuple[Yo, ...]
+    missing: tuple[str, ...]
+
+    def document(self) -> dict[str, Any]:
+        """As JSON."""
+        provenance = {"provenance"}
+        return {
+            "kind": self.log.kind,
+            "platform": self.log.metadata.get("platform"),
+            "start": iso(self.log.start_ns),
+            "end": iso(self.log.end_ns),
+            "duration_s": (self.log.end_ns - self.log.start_ns) * 1e-9,
+            "files": [report.document() for report in self.files],
+            "channels": [channel.document() for channel in self.channels],
+            "dives": [dive.document() for dive in self.dives],
+            "closures": json.loads(self.log.metadata.get("closures", "[]")),
+            "events": [{"name": e.name, "time": iso(e.time_ns), "depth_m": e.depth} for e in self.log.events],
+            "missing": list(self.missing),
+            "metadata": {key: text for key, text in self.log.metadata.items() if key not in provenance},
+        }
+
+
+def overview(reading: Reading) -> Overview:
+    """What a reading holds."""
+    log = reading.log
+    channels = tuple(_sampling(channel) for channel in log.channels.values() if len(channel))
+    return Overview(log, reading.files, channels, _dives(log), tuple(_missing(reading)))
+
+
+def _sampling(channel: Channel) -> Sampling:
+    steps = np.diff(channel.time_ns) * 1e-9
+    if not len(steps):
+        return Sampling(channel, None, 0, None, None)
+    usual = float(np.median(steps))
+    widest = int(steps.argmax())
+    gaps = int((steps > max(MANY * usual, LEAST_GAP)).sum())
+    return Sampling(channel, usual, gaps, float(steps[widest]), int(channel.time_ns[widest]))
+
+
+def _dives(log: Log) -> tuple[Yo, ...]:
+    """Each descent with the ascent that follows it, or without one."""
+    if "depth" not in log:
+        return ()
+    found: list[Yo] = []
+    legs = phases(log)
+    for i, leg in enumerate(legs):
+        if leg.name != "dive":
+            continue
+        climb = legs[i + 1] if i + 1 < len(legs) and legs[i + 1].name == "climb" else leg
+        depth = log["depth"].sliced(leg.start_ns, climb.end_ns).values
+        if len(depth):
+            found.append(Yo(leg.start_ns, climb.end_ns, float(depth.max())))
+    return tuple(found)
+
+
+def _missing(reading: Reading) -> list[str]:
+    """Files that belong to what was read and are not there; usual channels without a sample."""
+    lines = [f"{report.path.name}: {report.error}" for report in reading.files if report.error]
+    lines += [f"{name}, which goes with {beside}, is not among the files" for name, beside in reading.partners]
+    numbers: dict[str, set[int]] = {}
+    for dive in reading.dives:
+        if match := re.fullmatch(r"(.*?)(\d+)", dive):
+            numbers.setdefault(match[1], set()).add(int(match[2]))
+    for series, known in numbers.items():
+        gaps = sorted(set(range(min(known), max(known))) - known)
+        if gaps:
+            lines.append(f"dives {_ranges(gaps)} of {series.rstrip('.- ')} are not among the files")
+    for name in USUAL:
+        if not any(len(reading.log.channels.get(other, ())) for other in (name, *INSTEAD.get(name, ()))):
+            lines.append(f"no {name.replace('_', ' ')}")
+    return lines
+
+
+def _ranges(numbers: list[int]) -> str:
+    """1, 2, 3, 7 as "1-3, 7"."""
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][1] + 1:
+            runs[-1][1] = number
+        else:
+            runs.append([number, number])
+    return ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in runs)

@@ -1,0 +1,67 @@
+"""How are many files read? One by one; or, where they are large, spread over processes."""
+
+from __future__ import annotations
+
+import dataclasses
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+
+from glidercli.errors import GliderError
+from glidercli.logio.formats import read_file
+from glidercli.logio.reader import Aids, Part
+from glidercli.logio.report import FileReport
+
+__all__ = ["read_all"]
+
+LARGE = 20_000_000
+"""Bytes in all from which on it pays to start processes, which takes a second."""
+
+
+def read_all(
+    files: Sequence[Path],
+    format: str | None,
+    aids: Aids,
+    progress: Callable[[float, float], None] | None,
+    workers: int,
+) -> Iterator[Part | FileReport]:
+    """What each file gives, in the order of the files; of one that gives nothing the report that says why.
+
+    progress : is told the files read and the files to read.
+    """
+    tell = progress or (lambda done, whole: None)
+    tell(0, len(files))
+    size = sum(path.stat().st_size for path in files if path.is_file())
+    if workers < 2 or len(files) < 2 or size < LARGE:
+        for done, path in enumerate(files, 1):
+            yield _read(path, format, aids)
+            tell(done, len(files))
+        return
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
+    # spawn, not fork: the thread of the progress bar may hold a lock at the moment of a fork
+    pool = ProcessPoolExecutor(min(workers, len(files)), get_context("spawn"), initializer=_deaf)
+    try:
+        futures = [pool.submit(_read, path, format, aids) for path in files]
+        for done, future in enumerate(futures, 1):
+            yield future.result()
+            tell(done, len(files))
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _deaf() -> None:
+    """Leave Ctrl-C to the first process, which says how far it came."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _read(path: Path, format: str | None, aids: Aids) -> Part | FileReport:
+    try:
+        part = read_file(path, format, aids)
+    except GliderError as error:
+        return FileReport(path, None, 0, 0, error=str(error).removeprefix(f"{path}: "))
+    if part.log.channels:
+        return part
+    why = ", ".join(f"{count} {reason}" for reason, count in part.report.dropped)
+    return dataclasses.replace(part.report, error=part.report.error or "no usable record" + (f": {why}" if why else ""))
