@@ -8,6 +8,6 @@ from glidercli.logio.report import FileReport
 from glidercli.logio.writing import SUFFIXES, Saving, saving, write
 
 __all__ = [
-    "FORMATS", "SUFFIXES", "FileReport", "Overview", "Reading", "Replay", "Saving", "overview", "read", "replay", 
+    "FORMATS", "SUFFIXES", "FileReport", "Overview", "Reading", "Replay", "Saving", "overview", "read", "replay",
     "saving", "write",
 ]  # fmt: skip
