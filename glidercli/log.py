@@ -8,7 +8,8 @@ nothing is interpolated.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+import itertools
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -126,6 +127,14 @@ class Log:
             if (start_ns is None or e.time_ns >= start_ns) and (end_ns is None or e.time_ns < end_ns)
         )  # fmt: skip
         return dataclasses.replace(self, channels={n: c for n, c in parts.items() if len(c)}, events=events)
+
+    def pieces(self, samples: int) -> Iterator[Log]:
+        """The log cut in time, each piece with at most so many samples of any channel; all have the same channels."""
+        densest = max(self.channels.values(), key=len, default=None)
+        cuts = [None, *densest.time_ns[samples::samples].tolist(), None] if densest is not None else [None, None]
+        for start_ns, end_ns in itertools.pairwise(cuts):
+            parts = {name: channel.sliced(start_ns, end_ns) for name, channel in self.channels.items()}
+            yield dataclasses.replace(self, channels=parts)
 
     def table(self, zero_ns: int | None = None) -> pd.DataFrame:
         """All channels as a table in the contract's names and units.

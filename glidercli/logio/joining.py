@@ -153,10 +153,14 @@ def _one(logs: list[Log]) -> Log:
     if len(logs) == 1:
         return logs[0]
     channels = {}
+    shared: dict[tuple[int, ...], NDArray[np.int64]] = {}  # channels that share their times go on to do so
     for name in dict.fromkeys(name for log in logs for name in log.channels):
         parts = [log[name] for log in logs if name in log]
-        time_ns, values = (np.concatenate([getattr(p, field) for p in parts]) for field in ("time_ns", "values"))
-        channels[name] = Channel(name, time_ns, values, _origin(parts))
+        same = tuple(id(part.time_ns) for part in parts)
+        if same not in shared:
+            shared[same] = np.concatenate([part.time_ns for part in parts])
+        values = np.concatenate([part.values for part in parts])
+        channels[name] = Channel(name, shared[same], values, _origin(parts))
     return Log(channels, logs[0].origin, _metadata(logs), _events(logs))
 
 

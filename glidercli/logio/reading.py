@@ -94,10 +94,10 @@ def _files(paths: Sequence[str | Path]) -> list[Path]:
         path = Path(given)
         if path.is_dir():
             inside = [p for p in sorted(path.iterdir()) if p.is_file() and not p.name.startswith(".")]
-            recognised = [p for p in inside if format_of(p)]
-            if not recognised:
+            recognised = {p: format_of(p) is not None for p in inside}
+            if not any(recognised.values()):
                 raise InputError(path, f"holds no log; readable are {', '.join(FORMATS)}")
-            found += [p for p in inside if p in recognised or not _is_companion(p)]
+            found += [p for p in inside if recognised[p] or not _is_companion(p)]
         elif path.exists() or not glob.has_magic(str(given)):
             found.append(path)
         else:

@@ -23,6 +23,8 @@ __all__ = ["SUFFIXES", "TABLES", "Saving", "saving", "write"]
 
 TABLES = (".csv", ".parquet", ".nc")
 """Endings that take a log in pieces."""
+PIECE = 65536
+"""Samples of a channel that a table is given at once: some 20 MB of cells."""
 SUFFIXES = (".mcap", ".rrd", *TABLES)
 """Endings that can be written."""
 
@@ -72,8 +74,9 @@ class Saving:
         """Append a piece of the log, or all of it, to every table."""
         if not self._tables:
             return
-        for table, _, _ in self._tables:
-            table.add(log)
+        for piece in log.pieces(PIECE):
+            for table, _, _ in self._tables:
+                table.add(piece)
         self._origins |= {name: c for name, c in log.channels.items() if len(c)}
         if any(map(len, log.channels.values())):
             self._span = (self._span[0] if self._span else log.start_ns, log.end_ns)
