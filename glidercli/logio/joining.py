@@ -7,6 +7,7 @@ is dropped and counted. Of files that hold the same recording the fullest is rea
 from __future__ import annotations
 
 import dataclasses
+from collections import deque
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,27 +27,39 @@ PLACE = ("origin_latitude_deg", "origin_longitude_deg")
 def joined(parts: list[Part]) -> tuple[Log, list[FileReport]]:
     """One Log of what several files gave, and their reports with what joining dropped.
 
+    ``parts`` is emptied, so that what has been joined need not be in memory twice.
+
     Raises InputError where origins, vehicles or the places of tracks differ.
     """
     _check_alike(parts)
     reports = {part.report.path: part.report for part in parts}
     dives: dict[str, list[Part]] = {}
+    holders: dict[str, list[Part]] = {}
+    for part in parts:
+        for name in part.holds:
+            holders.setdefault(name, []).append(part)
     for number, part in enumerate(parts):
-        twin = _fuller(part, parts)
+        twin = _fuller(part, holders[part.holds[0]]) if part.holds else None
         if twin is not None:
             reports[part.report.path] = _all_dropped(part.report, f"its recording is in {twin.report.path.name}")
         else:
             dives.setdefault(part.dive or f"file {number}", []).append(part)
+    paths = [part.report.path for part in parts]
+    parts.clear()
+    holders.clear()
     reached: dict[str, int] = {}
     kept: list[Log] = []
-    for dive in sorted(dives.values(), key=lambda files: min(part.log.start_ns for part in files)):
+    ordered = deque(sorted(dives.values(), key=lambda files: min(part.log.start_ns for part in files)))
+    dives.clear()
+    while ordered:
+        dive = ordered.popleft()
         dive = [_after(part, reached) for part in _without_yielded(dive)]
         log = _interleaved([part.log for part in dive if part.log.channels])
         reports |= {part.report.path: part.report for part in dive}
         if log is not None:
             reached |= {name: int(channel.time_ns[-1]) for name, channel in log.channels.items()}
             kept.append(log)
-    return _one(kept), [reports[part.report.path] for part in parts]
+    return _one(kept), [reports[path] for path in paths]
 
 
 def _check_alike(parts: list[Part]) -> None:
@@ -71,10 +84,10 @@ def _place(log: Log) -> list[str | None]:
     return [log.metadata.get(key) for key in PLACE]
 
 
-def _fuller(part: Part, parts: list[Part]) -> Part | None:
+def _fuller(part: Part, others: list[Part]) -> Part | None:
     """The fullest of the files that hold all that this one does, if it is another; of equals the first."""
-    twins = [other for other in parts if part.holds and set(part.holds) <= set(other.holds)]
-    best = max(twins, key=lambda other: (other.fullness, len(other.holds)), default=part)
+    twins = [other for other in others if set(part.holds) <= set(other.holds)]
+    best = max(twins, key=lambda other: (other.fullness, len(other.holds)))
     return None if best is part else best
 
 
@@ -142,6 +155,9 @@ def _interleaved(logs: list[Log]) -> Log | None:
     channels = {}
     for name in dict.fromkeys(name for log in logs for name in log.channels):
         parts = [log[name] for log in logs if name in log]
+        if len(parts) == 1:
+            channels[name] = parts[0]
+            continue
         time_ns, first = np.unique(np.concatenate([part.time_ns for part in parts]), return_index=True)
         values = np.concatenate([part.values for part in parts])[first]
         channels[name] = Channel(name, time_ns, values, _origin(parts))
@@ -149,19 +165,22 @@ def _interleaved(logs: list[Log]) -> Log | None:
 
 
 def _one(logs: list[Log]) -> Log:
-    """One log of several in time order that share no sample time of a channel."""
+    """One log of several in time order that share no sample time of a channel; ``logs`` is emptied."""
     if len(logs) == 1:
         return logs[0]
+    whole = Log({}, logs[0].origin, _metadata(logs), _events(logs))
+    left = [dict(log.channels) for log in logs]
+    logs.clear()
     channels = {}
     shared: dict[tuple[int, ...], NDArray[np.int64]] = {}  # channels that share their times go on to do so
-    for name in dict.fromkeys(name for log in logs for name in log.channels):
-        parts = [log[name] for log in logs if name in log]
+    for name in dict.fromkeys(name for log in left for name in log):
+        parts = [log.pop(name) for log in left if name in log]
         same = tuple(id(part.time_ns) for part in parts)
         if same not in shared:
             shared[same] = np.concatenate([part.time_ns for part in parts])
         values = np.concatenate([part.values for part in parts])
         channels[name] = Channel(name, shared[same], values, _origin(parts))
-    return Log(channels, logs[0].origin, _metadata(logs), _events(logs))
+    return dataclasses.replace(whole, channels=channels)
 
 
 def _origin(parts: list[Channel]) -> Origin:

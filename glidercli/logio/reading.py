@@ -76,14 +76,13 @@ def read(
         first = reports[files[0]]
         more = f" (and {len(files) - 1} more files)" if len(files) > 1 else ""
         raise InputError(first.path, f"{first.error}{more}")
+    dives = tuple(dict.fromkeys(part.dive for part in parts if part.dive))
+    held = {"", *(name for part in parts for name in part.holds)}
+    partners = tuple((part.partner, part.report.path.name) for part in parts if part.partner not in held)
     log, whole = joined(parts)
     reports |= {report.path: report for report in whole}
     if not all(FORMATS[report.format].own for report in whole if report.format):
         log = with_derived(log)
-    dives = tuple(dict.fromkeys(part.dive for part in parts if part.dive))
-    held = {name for part in parts for name in part.holds}
-    held |= {""}
-    partners = tuple((part.partner, part.report.path.name) for part in parts if part.partner not in held)
     return Reading(log, tuple(reports[path] for path in files), dives, partners)
 
 

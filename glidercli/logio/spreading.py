@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import signal
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
@@ -43,10 +44,10 @@ def read_all(
     # spawn, not fork: the thread of the progress bar may hold a lock at the moment of a fork
     pool = ProcessPoolExecutor(min(workers, len(files)), get_context("spawn"), initializer=_deaf)
     try:
-        futures = [pool.submit(_read, path, format, aids) for path in files]
-        for done, future in enumerate(futures, 1):
-            yield future.result()
-            tell(done, len(files))
+        futures = deque(pool.submit(_read, path, format, aids) for path in files)
+        while futures:
+            yield futures.popleft().result()  # not kept here: the caller may let go of it
+            tell(len(files) - len(futures), len(files))
     finally:
         pool.shutdown(cancel_futures=True)
 
