@@ -111,6 +111,19 @@ class Log:
         """Time of the last sample of any channel."""
         return max(int(channel.time_ns[-1]) for channel in self.channels.values() if len(channel))
 
+    def together(self, *names: str) -> tuple[NDArray[np.int64], list[NDArray[np.float64]]]:
+        """The times at which all these channels have a sample, and the values there; empty where there is none."""
+        if not all(name in self for name in names):
+            return np.array([], np.int64), [np.array([]) for _ in names]
+        times = self[names[0]].time_ns
+        for name in names[1:]:
+            if times is not self[name].time_ns and not np.array_equal(times, self[name].time_ns):
+                times = np.intersect1d(times, self[name].time_ns, assume_unique=True)
+        return times, [
+            channel.values if channel.time_ns is times else channel.values[np.searchsorted(channel.time_ns, times)]
+            for channel in (self[name] for name in names)
+        ]
+
     def with_channels(self, *channels: Channel) -> Log:
         """This log with these channels added or replaced."""
         return dataclasses.replace(self, channels={**self.channels, **{c.name: c for c in channels}})

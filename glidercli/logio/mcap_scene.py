@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from glidercli.frames import quaternion_from_euler_arrays
 from glidercli.log import Log
-from glidercli.logio.drawable import hull_size, number, together
+from glidercli.logio.drawable import hull_size, number
 from glidercli.logio.mcap_messages import (
     MARKED_TIME,
     Array,
@@ -63,7 +63,7 @@ def scene_topics(log: Log, start_ns: int) -> list[Table | Messages]:
 
 def _sampled(log: Log, *names: str) -> _Samples | None:
     """The samples that these channels have together; None where there are none."""
-    times, values = together(log, *names)
+    times, values = log.together(*names)
     return (times, values) if times.size else None
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from glidercli.frames import quaternion_from_euler_arrays
 from glidercli.log import Log
 from glidercli.logio import rerun_blueprint as look
-from glidercli.logio.drawable import hull_size, number, together
+from glidercli.logio.drawable import hull_size, number
 from glidercli.places import track_of_geodetic
 
 if TYPE_CHECKING:
@@ -46,9 +46,9 @@ class Scene:
     def __init__(self, log: Log) -> None:
         self.log = log
         self.chunks: list[Chunk] = []
-        self.times, track = together(log, "north", "east", "down" if "down" in log else "depth")
+        self.times, track = log.together("north", "east", "down" if "down" in log else "depth")
         self.track = np.stack(track, axis=-1)
-        self.attitude_times, self.attitude = together(log, "roll", "pitch", "heading")
+        self.attitude_times, self.attitude = log.together("roll", "pitch", "heading")
         self.fixes = self._fixes()
         self.has_hull, self.has_plan = len(self.attitude_times) > 0, len(self.times) > 1 or len(self.fixes) > 0
         self.bounds: Array | None = None
@@ -100,7 +100,7 @@ class Scene:
 
     def _fixes(self) -> Array:
         """Recorded positions at the surface in NED about the log's origin, m; none where they cannot be placed."""
-        _, (latitude, longitude) = together(self.log, "latitude", "longitude")
+        _, (latitude, longitude) = self.log.together("latitude", "longitude")
         told = [number(self.log, f"origin_{name}_deg") for name in ("latitude", "longitude")]
         unplaced = None in told and len(self.times)
         if unplaced or not len(latitude) or self.log["latitude"].origin != "measured":
@@ -164,7 +164,7 @@ class Scene:
         """One arrow in each of the depth bins, at the track's nearest point in time."""
         import rerun as rr
 
-        times, (north, east) = together(self.log, "current_north", "current_east")
+        times, (north, east) = self.log.together("current_north", "current_east")
         if not len(times):
             return []
         up = self.log.channels.get("current_up")

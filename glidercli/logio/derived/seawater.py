@@ -18,7 +18,7 @@ def with_seawater(log: Log) -> Log:
     """The log with salinity and density where it lacks them and has what they follow from."""
     notes = {}
     if "salinity" not in log and {"conductivity", "temperature", "pressure"} <= log.channels.keys():
-        times, (c, t, p) = _shared(log, "conductivity", "temperature", "pressure")
+        times, (c, t, p) = log.together("conductivity", "temperature", "pressure")
         salinity = _salinity(c, t, p)
         log, told = _with(log, "salinity", times, salinity)
         if told:
@@ -26,20 +26,12 @@ def with_seawater(log: Log) -> Log:
                 "derived: PSS-78 of conductivity, temperature and pressure at one time (gsw.SP_from_C)"
             )
     if "density" not in log and {"salinity", "temperature", "pressure"} <= log.channels.keys():
-        times, (s, t, p) = _shared(log, "salinity", "temperature", "pressure")
+        times, (s, t, p) = log.together("salinity", "temperature", "pressure")
         density, place = _density(log, times, s, t, p)
         log, told = _with(log, "density", times, density)
         if told:
             notes["density_note"] = f"derived: TEOS-10, in situ, {place} (gsw.rho_t_exact)"
     return log.with_metadata(**notes)
-
-
-def _shared(log: Log, *names: str) -> tuple[Times, list[Array]]:
-    """The times that channels share, UTC ns, and their values there."""
-    times = log[names[0]].time_ns
-    for name in names[1:]:
-        times = np.intersect1d(times, log[name].time_ns, assume_unique=True)
-    return times, [log[name].values[np.searchsorted(log[name].time_ns, times)] for name in names]
 
 
 def _with(log: Log, name: str, times: Times, values: Array) -> tuple[Log, bool]:

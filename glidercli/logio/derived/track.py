@@ -41,11 +41,9 @@ def with_track(log: Log) -> Log:
     """
     if not {"depth", "pitch", "heading"} <= log.channels.keys() or "north" in log:
         return log
-    depth, pitch, heading = log["depth"], log["pitch"], log["heading"]
-    times = np.intersect1d(np.intersect1d(depth.time_ns, pitch.time_ns), heading.time_ns)
+    times, (z, theta, psi) = log.together("depth", "pitch", "heading")
     if len(times) < 2:
         return log
-    z, theta, psi = (c.values[np.searchsorted(c.time_ns, times)] for c in (depth, pitch, heading))
     steps = np.diff(times) * 1e-9
     rate = np.abs(np.diff(z)) / steps
     incline = np.abs(0.5 * (theta[1:] + theta[:-1]))
@@ -86,11 +84,9 @@ def _fixes(log: Log) -> tuple[Fixes | None, dict[str, str]]:
     """The GPS fixes about the first one, and where that is."""
     if not {"latitude", "longitude"} <= log.channels.keys():
         return None, {}
-    latitude, longitude = log["latitude"], log["longitude"]
-    times = np.intersect1d(latitude.time_ns, longitude.time_ns)
+    times, (lat, lon) = log.together("latitude", "longitude")
     if not len(times):
         return None, {}
-    lat, lon = (c.values[np.searchsorted(c.time_ns, times)] for c in (latitude, longitude))
     north, east = track_of_geodetic(lat, lon, lat[0], lon[0])
     place = {"origin_latitude_deg": repr(float(lat[0])), "origin_longitude_deg": repr(float(lon[0]))}
     return Fixes(times, north, east), place
