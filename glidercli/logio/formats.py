@@ -6,6 +6,7 @@ from pathlib import Path
 
 from glidercli.errors import InputError, UsageError
 from glidercli.files import readable_file
+from glidercli.gzipped import is_gzip
 from glidercli.logio.csv_log import is_csv, read_csv
 from glidercli.logio.reader import Aids, Format, Part
 from glidercli.logio.seaexplorer import is_seaexplorer, read_seaexplorer
@@ -53,7 +54,7 @@ def read_file(path: Path, format: str | None, aids: Aids) -> Part:
     name = format or format_of(path)
     if name is None:
         with path.open("rb") as stream:
-            packed = stream.read(2) == b"\x1f\x8b"
+            packed = is_gzip(stream.read(2))
         what = "is gzip data that unpack to no log: damaged, or not one" if packed else "is not a log that can be read"
         raise InputError(path, f"{what}; readable are {', '.join(FORMATS)}")
     return FORMATS[name].read(path, aids)

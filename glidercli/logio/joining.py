@@ -100,7 +100,7 @@ def _without_yielded(dive: list[Part]) -> list[Part]:
     """The files of a dive, without the channels that one gives up since another has them."""
     left = []
     for part in dive:
-        other = {name for file in dive if file is not part for name in file.log.channels}
+        other = {name for file in dive for name in file.log.channels.keys() - file.yields}
         given = sorted(part.yields & other & part.log.channels.keys())
         if given:
             channels = {name: c for name, c in part.log.channels.items() if name not in given}

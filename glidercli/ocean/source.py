@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import gzip
-import zlib
 from pathlib import Path
 
 from glidercli.errors import InputError
 from glidercli.files import readable_file
+from glidercli.gzipped import unpacked
 
 __all__ = ["left_out", "listed", "read_text"]
 
-_GZIP = b"\x1f\x8b"
 _TEXT_CONTROLS = b"\t\n\v\f\r\x1a"  # \x1a ends text files written by DOS programs
 _NOT_TEXT = bytes(code for code in range(32) if code not in _TEXT_CONTROLS)
 
@@ -27,11 +25,9 @@ def read_text(path: Path, expected: str) -> str:
         The file is missing, a folder, unreadable, empty, a damaged gzip file, or no text.
     """
     data = readable_file(path).read_bytes()
-    if data.startswith(_GZIP):
-        try:
-            data = gzip.decompress(data)
-        except (OSError, EOFError, zlib.error) as error:
-            raise InputError(path, f"is a damaged gzip file: {error}") from None
+    data, whole = unpacked(path, data)
+    if not whole:
+        raise InputError(path, "is a damaged gzip file: cut short, or with wrong bytes")
     if data.translate(None, _NOT_TEXT) != data:
         raise InputError(path, f"is not a text file; {expected}")
     try:

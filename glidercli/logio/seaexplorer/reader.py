@@ -8,13 +8,13 @@ that cannot be used are counted in warnings (seaexplorer_channels.py, where unit
 from __future__ import annotations
 
 import re
-import zlib
 from collections import Counter
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glidercli.gzipped import beginning, unpacked
 from glidercli.log import Log
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import usable
@@ -26,6 +26,8 @@ __all__ = ["is_seaexplorer", "read_seaexplorer"]
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
 
+HEAD = 65536
+"""Bytes that the first line stands in."""
 NAVIGATION, PAYLOAD = "Timestamp", "PLD_REALTIMECLOCK"
 NAME = re.compile(r"(sea\d+)\.", re.IGNORECASE)
 """How a file's name begins; nothing inside the file tells the vehicle."""
@@ -33,37 +35,20 @@ RECORDING = re.compile(
     r"(?P<mission>sea\d+\.\d+)\.(?P<unit>gli|pld\d+)\.(?P<kind>sub|raw)\.(?P<dive>\d+)(\.gz)?$", re.IGNORECASE
 )
 """A whole name. A raw file holds all that the sub file of the same unit and dive does, and more."""
-PIECE = 4096
-"""Bytes unpacked at a time, so that what stands before a damage is not lost."""
-
-
-def _text(data: bytes) -> tuple[str, bool]:
-    """The text, unpacked where it is gzip as far as that goes, and whether it is whole."""
-    pieces, whole = [], True
-    while whole and data[:2] == b"\x1f\x8b":  # members of a gzip file follow one another
-        member, at = zlib.decompressobj(wbits=31), 0
-        try:
-            while at < len(data) and not member.eof:
-                pieces.append(member.decompress(data[at : at + PIECE]))
-                at += PIECE
-        except zlib.error:
-            whole = False
-        whole, data = whole and member.eof, member.unused_data + data[at:]
-    text = b"".join(pieces)
-    return (text if text or not whole else data).decode("latin-1"), whole
 
 
 def is_seaexplorer(path: Path) -> bool:
     """Whether the first line is that of a SeaExplorer file."""
     with path.open("rb") as stream:
-        text, _ = _text(stream.read(16 * PIECE))
+        text = beginning(stream.read(HEAD), HEAD).decode("latin-1")
     first = text.split("\n", 1)[0].lstrip("\ufeff\xef\xbb\xbf ")
     return first.split(";", 1)[0].strip() in (NAVIGATION, PAYLOAD) and ";" in first
 
 
 def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
     """One navigation or payload file."""
-    text, whole = _text(path.read_bytes())
+    data, whole = unpacked(path, path.read_bytes())
+    text = data.decode("latin-1")
     lines = text.lstrip("\ufeff\xef\xbb\xbf ").split("\n")
     names = [name.strip() for name in lines[0].split(";")]
     dropped: Counter[str] = Counter()

@@ -1,0 +1,59 @@
+"""What do gzip data hold? As far as they are whole, and no more than a log can be."""
+
+from __future__ import annotations
+
+import zlib
+from pathlib import Path
+
+from glidercli.errors import InputError
+
+__all__ = ["beginning", "is_gzip", "unpacked"]
+
+PIECE = 4096
+"""Bytes unpacked at a time, so that what stands before a damage is not lost."""
+LEAST, RATIO = 64_000_000, 100
+"""Data may unpack to so many bytes, or so many times their own; tables of numbers pack to a tenth, not a hundredth."""
+_GZIP = b"\x1f\x8b"
+_WINDOW = 31  # zlib's way to say gzip
+
+
+def is_gzip(data: bytes) -> bool:
+    """Whether data begin as gzip does."""
+    return data[:2] == _GZIP
+
+
+def beginning(data: bytes, most: int) -> bytes:
+    """The first bytes that the data hold, unpacked if they are gzip, as far as that goes."""
+    if not is_gzip(data):
+        return data[:most]
+    try:
+        return zlib.decompressobj(wbits=_WINDOW).decompress(data, most)
+    except zlib.error:
+        return b""
+
+
+def unpacked(path: Path, data: bytes) -> tuple[bytes, bool]:
+    """What gzip data hold as far as they are whole, and whether they are whole; other data as they are.
+
+    Raises InputError where they unpack to far more than any log would.
+    """
+    if not is_gzip(data):
+        return data, True
+    most = max(LEAST, RATIO * len(data))
+    pieces, size = [], 0
+    while is_gzip(data):  # members of a gzip file follow one another
+        member, at = zlib.decompressobj(wbits=_WINDOW), 0
+        try:
+            while at < len(data) and not member.eof:
+                piece = member.decompress(data[at : at + PIECE])
+                size += len(piece)
+                if size > most:
+                    raise InputError(path, f"is gzip data that unpack to more than {most / 1e6:.0f} MB; no log does")
+                pieces.append(piece)
+                at += PIECE
+        except zlib.error:
+            return b"".join(pieces), False
+        if not member.eof:
+            return b"".join(pieces), False
+        data = member.unused_data + data[at:]
+    return b"".join(pieces), not data.strip(b"\0")

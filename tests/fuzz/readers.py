@@ -1,0 +1,163 @@
+"""Do readers stand what happens to files? Mutations of good files, each read in a process with bounded memory and time.
+
+    python tests/fuzz/readers.py --count 5000 --seed 1
+
+What may come out: one line of error; samples of the good file and an account that tells of the damage; or, where bytes
+that no checksum guards were changed into others that are possible, samples that differ in no more records than were
+hit. What may not: a traceback, a crash, a hang, memory beyond the bound, samples that nothing accounts for.
+"""
+
+from __future__ import annotations
+
+import argparse
+import collections
+import json
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import traceback
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parent))
+from good_files import GoodFile, good_files
+from mutations import Random, mutated
+
+MEMORY = 4_000_000_000  # bytes of address space; libraries that are loaded reserve 1 to 2 GB of it
+SECONDS = 20  # for one file; the largest good one takes 0.5 s
+BATCH = 100
+FAULTS = ("traceback", "crash", "hang", "not one line", "samples that nothing accounts for")
+
+
+def samples(log: Any) -> dict[str, dict[int, float]]:
+    return {name: dict(zip(c.time_ns.tolist(), c.values.tolist(), strict=True)) for name, c in log.channels.items()}
+
+
+def new_times(found: dict[str, dict[int, float]], good: dict[str, dict[int, float]]) -> set[int]:
+    """Times of samples that the good file does not have."""
+    return {
+        time
+        for name, values in found.items()
+        for time, value in values.items()
+        if good.get(name, {}).get(time) != value
+    }
+
+
+def hit_records(file: GoodFile, before: bytes, after: bytes) -> int:
+    """At most so many records were changed."""
+    if file.guarded:
+        return 0
+    if file.text:
+        gone = collections.Counter(after.splitlines())
+        gone.subtract(collections.Counter(before.splitlines()))
+        return sum(count for count in gone.values() if count > 0)
+    if len(before) != len(after):
+        return 1
+    return int((np.frombuffer(before, np.uint8) != np.frombuffer(after, np.uint8)).sum())
+
+
+def judged(file: GoodFile, name: str, data: bytes, random: Random, folder: Path) -> str:
+    """What became of one mutation."""
+    from glidercli.errors import GliderError
+    from glidercli.logio.formats import read_file
+
+    path = folder / file.path.name
+    path.write_bytes(data)
+    try:
+        part = read_file(path, file.format if random.random() < 0.5 else None, file.aids)
+    except GliderError as error:
+        lines = str(error).splitlines()
+        return "error" if len(lines) == 1 and str(path) in lines[0] else "not one line"
+    report, good = part.report, file.part.report
+    if report.records != report.kept + sum(count for _, count in report.dropped) or report.kept != len(part.record_ns):
+        return "samples that nothing accounts for"
+    found, expected = samples(part.log), samples(file.part.log)
+    if found == expected:
+        return "equal"
+    told = ("error", "records", "kept", "dropped", "warnings", "format")
+    if any(getattr(report, key) != getattr(good, key) for key in told):
+        return "reported"
+    hit = hit_records(file, file.path.read_bytes(), data)
+    # a record that is hit loses its time and may gain another: nothing beyond that
+    return "undetectable" if len(new_times(found, expected)) <= hit else "samples that nothing accounts for"
+
+
+def child(seed: int, start: int, count: int) -> None:
+    """Judge mutations number start to start + count, a JSON line each."""
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    files = good_files()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for number in range(start, start + count):
+            random = np.random.default_rng([seed, number])
+            file = files[int(random.integers(0, len(files)))]
+            for beside in file.beside:
+                shutil.copy(beside, folder)
+            mutation, data = mutated(random, file.path.read_bytes())
+            about = {"number": number, "file": file.path.name, "mutation": mutation}
+            print(json.dumps({**about, "outcome": "started"}), flush=True)
+            signal.alarm(SECONDS)  # ends the process; whoever waits for it sees why
+            try:
+                outcome, detail = judged(file, mutation, data, random, folder), ""
+            except BaseException:
+                outcome, detail = "traceback", traceback.format_exc()
+            signal.alarm(0)
+            print(json.dumps({**about, "outcome": outcome, "detail": detail}), flush=True)
+            (folder / file.path.name).unlink()
+
+
+def run(seed: int, count: int) -> list[dict[str, Any]]:
+    """What became of every mutation."""
+    done: list[dict[str, Any]] = []
+    while len(done) < count:
+        size = min(BATCH, count - len(done))
+        command = [
+            sys.executable,
+            __file__,
+            "--child",
+            "--seed",
+            str(seed),
+            "--start",
+            str(len(done)),
+            "--count",
+            str(size),
+        ]
+        process = subprocess.run(command, capture_output=True, text=True, check=False)
+        lines = [json.loads(line) for line in process.stdout.splitlines()]
+        done += [line for line in lines if line["outcome"] != "started"]
+        if process.returncode:
+            if not lines or lines[-1]["outcome"] != "started":
+                raise SystemExit(f"the child itself failed:\n{process.stderr}")
+            what = "hang" if process.returncode == -signal.SIGALRM else "crash"
+            done.append({**lines[-1], "outcome": what, "detail": process.stderr[-2000:]})
+    return done
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--count", type=int, default=5000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--start", type=int, default=0)
+    parser.add_argument("--child", action="store_true")
+    options = parser.parse_args()
+    if options.child:
+        child(options.seed, options.start, options.count)
+        return 0
+    done = run(options.seed, options.count)
+    counts = collections.Counter((item["file"], item["outcome"]) for item in done)
+    for (file, outcome), number in sorted(counts.items()):
+        print(f"{file:<36} {outcome:<36} {number}")
+    print({outcome: sum(1 for item in done if item["outcome"] == outcome) for outcome in {i["outcome"] for i in done}})
+    faults = [item for item in done if item["outcome"] in FAULTS]
+    for fault in faults[:20]:
+        print(json.dumps({**fault, "detail": None}), fault.get("detail", ""), sep="\n")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,98 @@
+"""Files of one dive interleave; of twins the fullest is read; every record stays accounted for."""
+
+from __future__ import annotations
+
+import dataclasses
+import gzip
+import shutil
+from pathlib import Path
+
+import numpy as np
+from conftest import ROOT
+
+from glidercli.log import Channel, Log
+from glidercli.logio import read
+from glidercli.logio.joining import joined
+from glidercli.logio.reader import Part
+from glidercli.logio.report import FileReport
+
+LOGS = ROOT / "logs/seaexplorer-sea035"
+SECOND = 10**9
+
+
+def part(name: str, times: list[int], *channels: str, **about: object) -> Part:
+    ns = np.array(times, np.int64) * SECOND
+    log = Log({c: Channel(c, ns, ns * 1e-9) for c in channels}, "measured")
+    return dataclasses.replace(Part(log, FileReport(Path(name), "made", len(ns), len(ns)), ns), **about)  # type: ignore[arg-type]
+
+
+def accounted(reports: list[FileReport]) -> bool:
+    return all(r.records == r.kept + sum(count for _, count in r.dropped) for r in reports)
+
+
+def test_a_raw_file_goes_before_its_sub_file(tmp_path: Path) -> None:
+    whole = LOGS / "sea035.12.gli.sub.37"
+    lines = whole.read_bytes().splitlines(keepends=True)
+    (tmp_path / "sea035.12.gli.raw.37.gz").write_bytes(gzip.compress(b"".join(lines)))
+    (tmp_path / "sea035.12.gli.sub.37").write_bytes(b"".join([lines[0], *lines[1::4]]))
+    reading = read([tmp_path])
+    raw, sub = reading.files
+    assert (raw.kept, raw.dropped) == (504, ())
+    assert (sub.records, sub.kept) == (126, 0)
+    assert sub.dropped == (("its recording is in sea035.12.gli.raw.37.gz", 126),)
+    assert sub.error is None  # nothing is wrong with it
+    assert len(reading.log["depth"]) == 504
+
+
+def test_navigation_and_payload_of_a_dive_interleave() -> None:
+    nav = part("n", [0, 10, 20, 30], "depth", dive="d1")
+    pay = part("p", [5, 10, 15], "depth", "temperature", dive="d1")
+    log, reports = joined([pay, nav])
+    assert (log["depth"].time_ns // SECOND).tolist() == [0, 5, 10, 15, 20, 30]
+    assert accounted(reports)
+
+
+def test_what_another_file_has_is_given_up() -> None:
+    nav = part("n", [0, 10], "depth", "temperature", dive="d1", yields=frozenset({"temperature"}))
+    relayed = part("r", [3, 4], "temperature", dive="d1", yields=frozenset({"temperature"}))
+    science = part("s", [1, 2, 3], "temperature", dive="d1")
+    log, reports = joined([nav, relayed, science])
+    assert (log["temperature"].time_ns // SECOND).tolist() == [1, 2, 3]
+    assert [r.kept for r in reports] == [2, 0, 3]
+    assert reports[1].dropped == (("no other value than those left out", 2),)
+    assert "temperature: 2 values left out" in reports[0].warnings[0]
+    assert accounted(reports)
+
+
+def test_without_the_other_file_nothing_is_given_up() -> None:
+    relays = frozenset({"temperature"})
+    one = part("n", [0, 10], "depth", "temperature", dive="d1", yields=relays)
+    two = part("m", [5, 15], "depth", "temperature", dive="d1", yields=relays)
+    log, _ = joined([one, two])
+    assert len(log["temperature"]) == 4
+
+
+def test_files_come_in_any_order(tmp_path: Path) -> None:
+    names = sorted(LOGS.glob("*.sub.*"))
+    forward, backward = read(names), read(names[::-1])
+    assert list(map(len, forward.log.channels.values())) == [len(backward.log[name]) for name in forward.log.channels]
+    for name, channel in forward.log.channels.items():
+        np.testing.assert_array_equal(channel.values, backward.log[name].values)
+
+
+def test_many_processes_read_what_one_does(tmp_path: Path, monkeypatch) -> None:
+    from glidercli.logio import spreading
+
+    for path in LOGS.glob("*.sub.*"):
+        shutil.copy(path, tmp_path)
+    (tmp_path / "broken").write_text("nothing\n")
+    one = read([tmp_path])
+    monkeypatch.setattr(spreading, "LARGE", 0)
+    told: list[tuple[float, float]] = []
+    two = read([tmp_path], progress=lambda done, whole: told.append((done, whole)), workers=2)
+    assert one.files == two.files
+    assert one.log.metadata == two.log.metadata
+    for name, channel in one.log.channels.items():
+        np.testing.assert_array_equal(channel.values, two.log[name].values)
+        np.testing.assert_array_equal(channel.time_ns, two.log[name].time_ns)
+    assert told == [(done, 7) for done in range(8)]
