@@ -27,7 +27,10 @@ class Reading:
     files: tuple[FileReport, ...]
 
 
-COMPANIONS = (".md", ".rst", ".txt", ".toml", ".json", ".py", ".png", ".svg", ".pdf", ".html", ".rrd")
+COMPANIONS = (
+    ".md", ".rst", ".txt", ".toml", ".json", ".py", ".png", ".svg", ".pdf", ".html", ".rrd", ".m", ".cap", ".asc",
+    ".dat",
+)  # fmt: skip
 """Endings of what stands in a folder beside logs: notes, settings, pictures, outputs that are not read back."""
 
 
