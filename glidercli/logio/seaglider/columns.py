@@ -57,9 +57,8 @@ PROCESSED = {
     "salinity": Quantity("salinity", 1.0, 0.0, 45.0, "PSU"),
     "absolute_salinity": Quantity("absolute_salinity", 1.0, 0.0, 45.0, "g/kg"),
     "conservative_temperature": Quantity("conservative_temperature", 1.0, -3.0, 45.0, "degC"),
-    "density_insitu": Quantity("density", 1.0, 990.0, 1090.0, "kg/m3"),
 }
-"""What the basestation computed. density_insitu is in kg/m3 although its unit attribute says g/m^3."""
+"""What the basestation computed."""
 
 NOTES = {
     "mass_position_zero": "the vehicle's own centre C_PITCH, not the model's; mass_position = -pitchCtl, which is "

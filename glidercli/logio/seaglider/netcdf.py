@@ -73,7 +73,7 @@ def _take_samples(file: NetcdfFile, gathering: Gathering, states: States) -> Non
     names = {key: ENG[key] for key in ENG} | {key: key for key in SEA}
     samples = series(file, "time", names)
     ctd = series(file, "ctd_time", CTD)
-    gathering.metadata |= {f"{key}_note": note for key, note in NOTES.items() if key in ctd.table}
+    gathering.metadata |= {f"{key}_note": note for key, (column, note) in NOTES.items() if column in ctd.table}
     ctd = ctd._replace(table=without_bad(file, ctd.table, warnings))
     one = np.array_equal(samples.time_ns, ctd.time_ns)
     if "vbdCC" in samples.table and "pitchCtl" not in samples.table:
@@ -86,7 +86,7 @@ def _take_samples(file: NetcdfFile, gathering: Gathering, states: States) -> Non
     channels = engineering(time_ns, table, names, _declination(file, gathering), warnings)
     channels += [channel_of(key, time_ns, table[key], SEA[key], warnings) for key in SEA if key in table]
     if one:
-        channels += ctd_channels(time_ns, {key: values[good] for key, values in beside.items()}, warnings)
+        channels += ctd_channels(time_ns, {key: values[good] for key, values in beside.items()}, _place(file), warnings)
     gathering.keep_rows(samples.kind, time_ns, channels)
     if len(states.time_ns):
         gathering.channels.append(phase(states, time_ns))
@@ -94,7 +94,15 @@ def _take_samples(file: NetcdfFile, gathering: Gathering, states: States) -> Non
         kind = ctd.kind if ctd.kind != samples.kind else "ctd_time"
         good = gathering.usable(kind, ctd.time_ns, beside)
         time_ns, beside = ctd.time_ns[good], {key: values[good] for key, values in beside.items()}
-        gathering.keep_rows(kind, time_ns, ctd_channels(time_ns, beside, warnings))
+        gathering.keep_rows(kind, time_ns, ctd_channels(time_ns, beside, _place(file), warnings))
+
+
+def _place(file: NetcdfFile) -> tuple[float, float] | None:
+    """Longitude and latitude of the dive, deg, or None."""
+    longitude, latitude = file.number("avg_longitude"), file.number("avg_latitude")
+    if longitude is None or latitude is None or abs(longitude) > 360.0 or abs(latitude) > 90.0:
+        return None
+    return longitude, latitude
 
 
 def _declination(file: NetcdfFile, gathering: Gathering) -> float | None:
