@@ -32,7 +32,7 @@ Times = NDArray[np.int64]
 
 SLACK = 2.0
 """s; an event's start and end are whole seconds in older software."""
-LONGEST_DIVE = 1e7
+LONGEST_DIVE = 1e6
 """s; a dive lasts hours."""
 MOTORS = {"pitch": "pitchCtl", "vbd": "vbdCC", "roll": "rollCtl"}
 """In the order in which they run, with the column that tells the same."""
@@ -41,8 +41,8 @@ MOTORS = {"pitch": "pitchCtl", "vbd": "vbdCC", "roll": "rollCtl"}
 class Moves(NamedTuple):
     """What the events gave.
 
-    channels : positions at starts and stops. events : starts and stops. first_ns : (n,), time of the first sample of
-    each event; gave : (n,), whether there is one.
+    channels : positions at the events' starts, and at the motors' starts and stops. events : the latter. first_ns :
+    (n,), time of the first sample of each event; gave : (n,), whether there is one.
     """
 
     channels: list[Channel]
@@ -65,7 +65,10 @@ def counts_of_vbd(table: Mapping[str, Array], ignore: float | None) -> dict[str,
 def moves(
     time_ns: Times, table: Mapping[str, Array], settings: Mapping[str, float], climb_ns: int | None, warnings: list[str]
 ) -> Moves:
-    """Where the motors stood when they started and stopped.
+    """Where the motors stood when an event started, and when they started and stopped themselves.
+
+    Between events a mass may move without a record, as the roll motor does when a dive of sg561 ends: so what stood
+    still in an event has its sample too, at the event's start.
 
     time_ns : (n,), UTC ns, start of each event, increasing. table : columns of events by name, (n,), NaN where blank;
     end_secs counts from the start of the event. settings : centres and conversions of the .log by name.
@@ -86,12 +89,13 @@ def moves(
         times = [time_ns + np.round(np.where(late, 0.0, seconds) * 1e9).astype(np.int64) for seconds in (begin, end)]
         before, after = (_position(motor, table.get(f"{motor}_ad{at}", blank), time_ns, settings, climb_ns)
                          for at in ("_start", ""))  # fmt: skip
-        told = [ran & np.isfinite(values) for values in (before, after)]
-        both = np.concatenate([t[there] for t, there in zip(times, told, strict=True)])
+        runs = ran & np.isfinite(before), ran & np.isfinite(after)
+        samples = ((time_ns, before, np.isfinite(before)), (times[0], before, runs[0]), (times[1], after, runs[1]))
+        both, values = (np.concatenate([sample[i][sample[2]] for sample in samples]) for i in (0, 1))
         order = np.argsort(both, kind="stable")
-        values = np.concatenate([before[told[0]], after[told[1]]])[order]
-        channels.append(_increasing(column, both[order], values, CONTROLS[column], warnings))
-        first = np.minimum(first, np.where(told[0], times[0], np.where(told[1], times[1], first)))
+        channels.append(_increasing(column, both[order], values[order], CONTROLS[column], warnings))
+        for at, _, there in samples:
+            first = np.minimum(first, np.where(there, at, first))
         names = _names(motor, table.get("vbd_secs", blank), before, after)
         depth = table.get("depth", blank)
         events += [
@@ -127,16 +131,16 @@ def _names(motor: str, seconds: Array, before: Array, after: Array) -> NDArray[n
     return np.where((seconds < 0.0) | (after < before), "VBD valve", "VBD pump")
 
 
-def surface_pump(fields: Sequence[float], start_ns: int, warnings: list[str]) -> tuple[Channel, list[Event]]:
-    """The pump's run at the surface, $SM_CCo: start and duration first, s, ballast at its end last, cm3.
+def surface_pump(fields: Sequence[float], start_ns: int) -> list[Event]:
+    """Start and stop of the pump's run at the surface, $SM_CCo: start and duration come first, s; else none.
 
-    fields : NaN where a field is no number. start_ns : start of the dive, UTC ns. The ballast before is not recorded.
+    fields : NaN where a field is no number. start_ns : start of the dive, UTC ns. There is no sample: the ballast
+    before is not recorded, and a line from the last one to that at the end would run through minutes of the climb.
     In dive 3 of sg561 the run starts at 1654 s, after the state "begin surface" (1638 s); were it the end, it would
     have begun before it.
     """
-    begin, run, ballast = (fields[0], abs(fields[1]), fields[-1]) if len(fields) > 4 else (np.nan,) * 3
+    begin, run = (fields[0], abs(fields[1])) if len(fields) > 4 else (np.nan, np.nan)
     if not (0.0 <= begin < LONGEST_DIVE and 0.0 < run < LONGEST_DIVE):
-        return Channel("ballast_volume", np.array([], np.int64), np.array([])), []
-    at = [start_ns + round(seconds * 1e6) * 1000 for seconds in (begin, begin + run)]
-    channel = channel_of("SM_CCo", np.array(at[1:]), np.array([ballast]), CONTROLS["vbdCC"], warnings)
-    return channel, [Event("VBD pump starts", at[0]), Event("VBD pump stops", at[1])]
+        return []
+    times = (start_ns + round(seconds * 1e6) * 1000 for seconds in (begin, begin + run))
+    return [Event(f"VBD pump {word}", at) for at, word in zip(times, ("starts", "stops"), strict=True)]

@@ -51,7 +51,11 @@ def read_log(path: Path, data: bytes) -> Part:
     climb_ns = _states(text, [fields for key, fields in lines if key == "$STATE"], gathering)
     head = next((fields for key, fields in lines if key == "$GCHEAD"), OLD_HEAD.split(","))
     _events(text, head, [fields for key, fields in lines if key == "$GC"], settings, climb_ns, gathering)
-    _surface_pump(text, [fields for key, fields in lines if key == "$SM_CCo"], gathering)
+    pumped = [fields for key, fields in lines if key == "$SM_CCo"]
+    gathering.records += len(pumped)
+    gathering.drop("$SM_CCo", "the pump's run at the surface, events and no sample", len(pumped))
+    for fields in pumped[:1]:
+        gathering.events += surface_pump([to_number(field) for field in fields], text.start_ns)
     _fixes([fields for key, fields in lines if key in FIXES], gathering)
     return gathering.part(path, text.dive, ("log",), yields=frozenset({"depth"}))
 
@@ -72,19 +76,6 @@ def _states(text: TextFile, rows: list[list[str]], gathering: Gathering) -> int 
     if len(states.time_ns):
         gathering.channels.append(phase(states, time_ns[:0]))
     return states.end_of_dive_ns
-
-
-def _surface_pump(text: TextFile, rows: list[list[str]], gathering: Gathering) -> None:
-    """Take the run of the pump at the surface, one line of a dive."""
-    gathering.records += len(rows)
-    gave = 0
-    for row in rows[:1]:
-        channel, events = surface_pump([to_number(field) for field in row], text.start_ns, gathering.warnings)
-        gathering.channels += [channel] if len(channel) else []
-        gathering.events += events
-        gathering.kept_ns.append(channel.time_ns)
-        gave = len(channel)
-    gathering.drop("$SM_CCo", "no usable value", len(rows) - gave)
 
 
 def _events(
@@ -120,7 +111,7 @@ def _events(
     gathering.channels += [channel for channel in channels if len(channel)]
     gathering.events += found.events
     depths = np.isin(time_ns, channels[-1].time_ns if "depth" in table else time_ns[:0])
-    gathering.keep("$GC", found.first_ns, found.gave | depths, "no depth, and no motor ran")
+    gathering.keep("$GC", found.first_ns, found.gave | depths, "no depth or position, and no motor ran")
 
 
 def _fixes(rows: list[list[str]], gathering: Gathering) -> None:

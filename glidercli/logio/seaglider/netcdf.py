@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from glidercli.errors import InputError
 from glidercli.logio.quantities import channel_of
 from glidercli.logio.reader import Part
+from glidercli.logio.records import STRAY
 from glidercli.logio.seaglider.actuators import counts_of_vbd, moves, surface_pump
 from glidercli.logio.seaglider.adcp import take_adcp
 from glidercli.logio.seaglider.columns import ENGINEERING, SEA, cells, engineering, fixes
@@ -54,7 +55,8 @@ def read_nc(path: Path, data: bytes) -> Part:
         states = _take_states(file, gathering)
         _take_samples(file, gathering, states)
         _take_events(file, gathering, states.end_of_dive_ns or _start_of_climb(file))
-        _take_surface_pump(file, gathering)
+        if (start_ns := _at(file, 0.0)) is not None:
+            gathering.events += surface_pump(file.fields("log_SM_CCo"), start_ns)
         _take_fixes(file, gathering)
         take_adcp(file, gathering)
         dive = Dive(*(_whole(file, *names) for names in (("glider", "log_glider"), ("mission", "log_mission"),
@@ -132,7 +134,7 @@ def _take_events(file: NetcdfFile, gathering: Gathering, climb_ns: int | None) -
     found = moves(time_ns, table, settings, climb_ns, gathering.warnings)
     gathering.channels += [channel for channel in found.channels if len(channel)]
     gathering.events += found.events
-    gathering.keep(kind, found.first_ns, found.gave, "no motor ran")
+    gathering.keep(kind, found.first_ns, found.gave, "no motor ran, and no position is told")
 
 
 def _take_states(file: NetcdfFile, gathering: Gathering) -> States:
@@ -149,24 +151,18 @@ def _middle(file: NetcdfFile) -> int | None:
     return int(np.median(times)) if len(times) else None
 
 
-def _take_surface_pump(file: NetcdfFile, gathering: Gathering) -> None:
-    """Take the run of the pump at the surface, one record."""
-    fields, start = file.fields("log_SM_CCo"), file.number("log_start")
-    if not fields or start is None:
-        return
-    gathering.records += 1
-    start_ns = int(nanoseconds(np.array([start]))[0])
-    channel, events = surface_pump(fields, start_ns, gathering.warnings)
-    gathering.channels += [channel] if len(channel) else []
-    gathering.events += events
-    gathering.kept_ns.append(channel.time_ns)
-    gathering.drop("log_SM_CCo", "no usable value", 1 - len(channel))
-
-
 def _start_of_climb(file: NetcdfFile) -> int | None:
     """When the climb began, UTC ns, where no states are recorded; or None."""
-    start, since = file.number("log_start"), file.number("start_of_climb_time")
-    return None if start is None or since is None else int(nanoseconds(np.array([start + since]))[0])
+    since = file.number("start_of_climb_time")
+    return None if since is None else _at(file, since)
+
+
+def _at(file: NetcdfFile, since: float) -> int | None:
+    """UTC ns of seconds since the start of the dive, or None where this is not told or of another clock."""
+    start, middle = file.number("log_start"), _middle(file)
+    if start is None or middle is None or abs(start + since - middle / 1e9) > STRAY / 1e9:
+        return None
+    return int(nanoseconds(np.array([start + since]))[0])
 
 
 def _take_fixes(file: NetcdfFile, gathering: Gathering) -> None:

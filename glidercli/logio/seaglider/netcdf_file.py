@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from glidercli.errors import InputError
 from glidercli.logio.seaglider.classic import check_classic
+from glidercli.logio.seaglider.heaps import check_heaps
 from glidercli.logio.seaglider.text_file import to_number
 
 __all__ = ["LARGEST", "NetcdfFile", "begin_of", "is_netcdf", "unpacked"]
@@ -62,6 +63,8 @@ class NetcdfFile:
         try:
             if data.startswith(CLASSIC):
                 check_classic(data)
+            else:
+                check_heaps(data)
             self._file: Any = netCDF4.Dataset(path.name, memory=data)
             self._file.set_auto_maskandscale(False)
             self.names = frozenset(self._file.variables)

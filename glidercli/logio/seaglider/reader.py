@@ -14,7 +14,7 @@ from glidercli.logio.seaglider.text_file import is_text
 
 __all__ = ["is_seaglider", "read_seaglider"]
 
-SMALLEST = 64
+SMALLEST = 4096
 """Bytes that tell whether the rest is worth looking at."""
 STARTS = (b"CDF", b"\x89HDF", b"version:", b"%version:")
 
