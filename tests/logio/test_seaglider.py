@@ -278,6 +278,19 @@ def test_each_trap_of_a_nc_is_dropped_by_name(tmp_path: Path, variable: str, val
     assert dict(report.dropped)[reason] == 1
 
 
+def test_impossible_counts_and_runs_leave_no_sample(tmp_path: Path) -> None:
+    lines = [line for line in LOG.read_text().splitlines() if not line.startswith("$GC,")]
+    head = "$GC,14,-0.58,-145.9,{pitch},2060,1296,1208,7777,0.0,0,88,0.00,0.00,{vbd},"
+    rest = "0.000,16390,0.000,0.000,269,2059,3244,3240,3249,0,0,0,0,0,0,28.83,28.83,14.92"
+    path = tmp_path / LOG.name
+    path.write_text("\n".join([*lines, head.format(pitch=99999, vbd=1e300) + rest]) + "\n")
+    part = read_one(path)
+    assert "mass_position" not in part.log
+    assert len(part.log["ballast_volume"]) == len(part.log["mass_rotation"]) == 1  # at the event's start
+    assert "vbd_secs: 1 runs left out that outlast their event" in part.report.warnings
+    assert "GC pitchCtl: 1 values outside -20..20 cm left out" in part.report.warnings
+
+
 def test_a_clock_that_was_not_set_takes_its_rows_only(tmp_path: Path) -> None:
     unset = lambda seconds: np.concatenate([seconds[:5] - 4e8, seconds[5:]])  # noqa: E731
     report = read_one(change(tmp_path, time=unset, ctd_time=unset)).report

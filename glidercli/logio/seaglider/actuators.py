@@ -82,7 +82,7 @@ def moves(
     for motor, column in MOTORS.items():
         run = np.abs(np.nan_to_num(table.get(f"{motor}_secs", blank)))
         end = begin + run
-        late = (run > 0.0) & (end > np.where(np.isnan(duration), np.inf, duration) + SLACK)
+        late = (run > 0.0) & (end > np.where(np.isnan(duration), LONGEST_DIVE, duration) + SLACK)
         if late.any():
             warnings.append(f"{motor}_secs: {int(late.sum())} runs left out that outlast their event")
         ran = (run > 0.0) & ~late
@@ -94,8 +94,9 @@ def moves(
         both, values = (np.concatenate([sample[i][sample[2]] for sample in samples]) for i in (0, 1))
         order = np.argsort(both, kind="stable")
         channels.append(_increasing(column, both[order], values[order], CONTROLS[column], warnings))
-        for at, _, there in samples:
-            first = np.minimum(first, np.where(there, at, first))
+        low, high = CONTROLS[column].low, CONTROLS[column].high
+        for at, position, there in samples:
+            first = np.minimum(first, np.where(there & (position >= low) & (position <= high), at, first))
         names = _names(motor, table.get("vbd_secs", blank), before, after)
         depth = table.get("depth", blank)
         events += [

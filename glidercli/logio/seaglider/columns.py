@@ -66,9 +66,9 @@ NOTES = {
     "mass_rotation_note": "mass_rotation = -rollCtl: recorded roll follows rollCtl, the model's rotation opposes it; "
     "its zero is the vehicle's own, C_ROLL_DIVE until the dive ends, then C_ROLL_CLIMB",
     "ballast_volume_zero": "the vehicle's own neutral C_VBD",
-    "motor_note": "samples at the start of each event and at the start and stop of each motor that ran in it; motors run "
-    "one after the other, pitch, VBD, roll, from the recorded start of an event on; pauses between them, 2 s in all at "
-    "most, are not recorded",
+    "motor_note": "samples at the start of each event and at the start and stop of each motor that ran in it; motors "
+    "run one after the other, pitch, VBD, roll, from the recorded start of an event on; pauses between them, 2 s in "
+    "all at most, are not recorded",
 }
 """What a reader of the channels should know, as metadata of the log."""
 
