@@ -10,6 +10,7 @@ from glidercli.gzipped import is_gzip
 from glidercli.logio.csv_log import is_csv, read_csv
 from glidercli.logio.reader import Aids, Format, Part
 from glidercli.logio.seaexplorer import is_seaexplorer, read_seaexplorer
+from glidercli.logio.seaglider import is_seaglider, read_seaglider
 
 __all__ = ["FORMATS", "check_format", "format_of", "read_file"]
 
@@ -29,6 +30,7 @@ def _read_mcap(path: Path, aids: Aids) -> Part:
 FORMATS: dict[str, Format] = {
     "glider-mcap": Format(_is_mcap, _read_mcap, own=True),
     "seaexplorer": Format(is_seaexplorer, read_seaexplorer),
+    "seaglider": Format(is_seaglider, read_seaglider),
     "glider-csv": Format(is_csv, read_csv, own=True),
 }
 """Formats by name, asked in this order."""

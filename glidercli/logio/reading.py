@@ -33,7 +33,10 @@ class Reading:
     partners: tuple[tuple[str, str], ...] = ()
 
 
-COMPANIONS = (".md", ".rst", ".txt", ".toml", ".json", ".py", ".png", ".svg", ".pdf", ".html", ".rrd")
+COMPANIONS = (
+    ".md", ".rst", ".txt", ".toml", ".json", ".py", ".png", ".svg", ".pdf", ".html", ".rrd", ".m", ".cap", ".asc",
+    ".dat",
+)  # fmt: skip
 """Endings of what stands in a folder beside logs: notes, settings, pictures, outputs that are not read back."""
 
 
