@@ -48,13 +48,13 @@ def _text(d: dict[str, Any]) -> list[str]:
         deepest = max(dive["deepest_m"] for dive in d["dives"])
         lines.append(f"{_count(len(d['dives']), 'dive')} to {deepest:.1f} m at most")
     lines += ["", *_files(d["files"])]
-    lines += ["", f"{'channel':<26}{'samples':>9}{'every':>9}{'gaps':>6}{'longest':>9}{'minimum':>10}{'maximum':>10}"]
+    lines += ["", f"{'channel':<31}{'samples':>8}{'every':>9}{'gaps':>5}{'longest':>9}{'minimum':>9}{'maximum':>9}"]
     for c in d["channels"]:
         low, high = ("-" if v is None else f"{v:z.4g}" for v in (c["minimum"], c["maximum"]))
         mark = "*" if c["origin"] == "derived" else ""
         lines.append(
-            f"{c['name'] + mark:<26}{c['samples']:>9,}{_span(c['interval_s']):>9}{c['gaps']:>6}"
-            f"{_span(c['longest_gap_s']):>9}{low:>10}{high:>10}"
+            f"{c['name'] + mark:<30}{c['samples']:>9,}{_span(c['interval_s']):>9}{c['gaps']:>5}"
+            f"{_span(c['longest_gap_s']):>9}{low:>9}{high:>9}"
         )
     if any(c["origin"] == "derived" for c in d["channels"]):
         lines.append("* derived, not recorded; how: glider replay, or --json")

@@ -95,7 +95,7 @@ def test_eng_and_log_together_tell_what_the_nc_tells() -> None:
         np.testing.assert_allclose(texts["depth"].values, file["eng_depth"][:] / 100.0, rtol=1e-12)
     # the vehicle reckons depth without its latitude: gravity differs by 0.5 % at most between equator and pole
     np.testing.assert_allclose(texts["depth"].values, nc["depth"].values, rtol=5e-3)
-    begun = {"dive", "hover", "climb", "surface"}
+    begun = {"dive", "inflection", "climb", "surface"}
     assert {PHASES[int(value)] for value in texts["phase"].values} == begun
     force = np.searchsorted(nc["phase"].time_ns, texts["phase"].time_ns)
     np.testing.assert_array_equal(nc["phase"].values[force], texts["phase"].values)

@@ -25,7 +25,7 @@ STATES = tuple(f"{word} {name}" for name in _NAMES for word in ("begin", "end"))
 _PHASES = {
     "dive": "dive",
     "climb": "climb",
-    "apogee": "hover",
+    "apogee": "inflection",
     "loiter": "hover",
     "subsurface finish": "hover",
     "surface coast": "surface",
