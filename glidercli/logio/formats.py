@@ -6,7 +6,7 @@ from pathlib import Path
 
 from glidercli.errors import InputError, UsageError
 from glidercli.files import readable_file
-from glidercli.logio.csv_log import is_csv, read_csv
+from glidercli.logio.own.csv_log import is_csv, read_csv
 from glidercli.logio.reader import Aids, Format, Part
 from glidercli.logio.seaexplorer import is_seaexplorer, read_seaexplorer
 

@@ -15,7 +15,7 @@ from glidercli.channels import PHASES, by_column
 from glidercli.errors import InputError
 from glidercli.files import metadata_path
 from glidercli.log import Channel, Event, Log, Origin
-from glidercli.logio.csv_metadata import origin_word, read_metadata, stranger
+from glidercli.logio.own.csv_metadata import origin_word, read_metadata, stranger
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport
 from glidercli.origins import BOTH, column_name, origins
