@@ -7,6 +7,8 @@ from pathlib import Path
 from glidercli.errors import InputError, UsageError
 from glidercli.files import readable_file
 from glidercli.logio.own.csv_log import is_csv, read_csv
+from glidercli.logio.own.netcdf_back import is_own_netcdf, read_own_netcdf
+from glidercli.logio.own.parquet_back import is_own_parquet, read_own_parquet
 from glidercli.logio.reader import Aids, Format, Part
 from glidercli.logio.seaexplorer import is_seaexplorer, read_seaexplorer
 
@@ -27,6 +29,8 @@ def _read_mcap(path: Path, aids: Aids) -> Part:
 
 FORMATS: dict[str, Format] = {
     "glider-mcap": Format(_is_mcap, _read_mcap, own=True),
+    "glider-nc": Format(is_own_netcdf, read_own_netcdf, own=True),
+    "glider-parquet": Format(is_own_parquet, read_own_parquet, own=True),
     "seaexplorer": Format(is_seaexplorer, read_seaexplorer),
     "glider-csv": Format(is_csv, read_csv, own=True),
 }

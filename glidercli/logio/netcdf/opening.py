@@ -1,0 +1,59 @@
+"""How is a NetCDF file opened, so that no damage in it becomes more than one line? NetCDF-3 and NetCDF-4 (HDF5)."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from glidercli.errors import InputError
+
+__all__ = ["DAMAGED", "holds", "is_netcdf", "opened", "rows_of"]
+
+MAGIC = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
+"""How the files start: NetCDF classic, 64-bit offset and data, and HDF5 (NetCDF Users' Guide, file format)."""
+DAMAGED = "is NetCDF data that cannot be read: damaged or cut short; a whole file is needed"
+MOST_PACKED = 10_000
+"""No compression that is in use makes times so much shorter; deflate makes at most 1032 of one."""
+
+
+def is_netcdf(path: Path) -> bool:
+    """Whether the file starts as a NetCDF file does."""
+    with path.open("rb") as stream:
+        return stream.read(8).startswith(MAGIC)
+
+
+@contextlib.contextmanager
+def opened(path: Path) -> Iterator[Any]:
+    """The netCDF4.Dataset of a file, its values as stored; InputError for whatever fails while it is open."""
+    import netCDF4
+
+    if not is_netcdf(path):
+        raise InputError(path, "is no NetCDF file: it does not start with the bytes of one")
+    try:
+        with netCDF4.Dataset(path) as file:
+            file.set_auto_maskandscale(False)
+            file.set_auto_chartostring(False)
+            yield file
+    except (OSError, RuntimeError, ValueError, LookupError, AttributeError, TypeError, MemoryError) as fault:
+        raise InputError(path, DAMAGED) from fault
+
+
+def holds(path: Path, told: Callable[[Any], bool]) -> bool:
+    """Whether a file is NetCDF and of a kind, by a look at its dimensions, names and attributes."""
+    if not is_netcdf(path):
+        return False
+    try:
+        with opened(path) as file:
+            return told(file)
+    except InputError:
+        return False
+
+
+def rows_of(path: Path, file: Any, dimension: str) -> int:
+    """The length of a dimension; InputError where it is announced longer than the file can hold times for."""
+    rows = len(file.dimensions[dimension])
+    if rows * 8 > path.stat().st_size * MOST_PACKED:
+        raise InputError(path, f"announces {rows} records, more than a file of its size can hold; it is damaged")
+    return rows
