@@ -6,6 +6,9 @@ from pathlib import Path
 
 from glidercli.errors import InputError, UsageError
 from glidercli.files import readable_file
+from glidercli.logio.netcdf.ioos import is_ioos, read_ioos
+from glidercli.logio.netcdf.og1 import is_og1, read_og1
+from glidercli.logio.netcdf.opening import is_netcdf, opened
 from glidercli.logio.own.csv_log import is_csv, read_csv
 from glidercli.logio.own.netcdf_back import is_own_netcdf, read_own_netcdf
 from glidercli.logio.own.parquet_back import is_own_parquet, read_own_parquet
@@ -31,6 +34,8 @@ FORMATS: dict[str, Format] = {
     "glider-mcap": Format(_is_mcap, _read_mcap, own=True),
     "glider-nc": Format(is_own_netcdf, read_own_netcdf, own=True),
     "glider-parquet": Format(is_own_parquet, read_own_parquet, own=True),
+    "og1": Format(is_og1, read_og1),
+    "ioos": Format(is_ioos, read_ioos),
     "seaexplorer": Format(is_seaexplorer, read_seaexplorer),
     "glider-csv": Format(is_csv, read_csv, own=True),
 }
@@ -55,6 +60,10 @@ def read_file(path: Path, format: str | None, aids: Aids) -> Part:
     """What one file gives. format : its name, or None to go by content."""
     readable_file(path)
     name = format or format_of(path)
+    if name is None and is_netcdf(path):
+        with opened(path):  # damaged is an error of its own
+            kinds = ", ".join(FORMATS)
+            raise InputError(path, f"is NetCDF, but none of the kinds that can be read; readable are {kinds}")
     if name is None:
         with path.open("rb") as stream:
             packed = stream.read(2) == b"\x1f\x8b"

@@ -57,7 +57,8 @@ def ticks(values: NDArray[Any], zero_ns: int, unit_ns: int) -> Times:
     Integers are exact. Of floats the whole units are exact and the rest is rounded to the ns, which is as near as the
     stored number itself is: 2.4e-7 s for seconds since 1970.
     """
-    rough = values.astype(np.float64) * unit_ns + zero_ns
+    with np.errstate(over="ignore", invalid="ignore"):
+        rough = values.astype(np.float64) * unit_ns + zero_ns
     told = (rough > FIRST) & (rough < LAST)  # false where it is NaN
     time_ns = np.full(len(values), NO_TIME)
     good = values[told]
