@@ -14,6 +14,7 @@ from glidercli.logio.own.netcdf_back import is_own_netcdf, read_own_netcdf
 from glidercli.logio.own.parquet_back import is_own_parquet, read_own_parquet
 from glidercli.logio.reader import Aids, Format, Part
 from glidercli.logio.seaexplorer import is_seaexplorer, read_seaexplorer
+from glidercli.logio.tables import is_table, read_table
 
 __all__ = ["FORMATS", "check_format", "format_of", "read_file"]
 
@@ -38,6 +39,7 @@ FORMATS: dict[str, Format] = {
     "ioos": Format(is_ioos, read_ioos),
     "seaexplorer": Format(is_seaexplorer, read_seaexplorer),
     "glider-csv": Format(is_csv, read_csv, own=True),
+    "table": Format(is_table, read_table),
 }
 """Formats by name, asked in this order."""
 
@@ -60,6 +62,8 @@ def read_file(path: Path, format: str | None, aids: Aids) -> Part:
     """What one file gives. format : its name, or None to go by content."""
     readable_file(path)
     name = format or format_of(path)
+    if name is None and aids.columns is not None and not is_netcdf(path):
+        name = "table"
     if name is None and is_netcdf(path):
         with opened(path):  # damaged is an error of its own
             kinds = ", ".join(FORMATS)

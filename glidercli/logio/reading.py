@@ -15,6 +15,7 @@ from glidercli.logio.formats import FORMATS, check_format, format_of, read_file
 from glidercli.logio.joining import joined
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport
+from glidercli.logio.tables.reader import ENDINGS
 
 __all__ = ["Reading", "read"]
 
@@ -54,7 +55,7 @@ def read(
     """
     check_format(format)
     aids = Aids(None if cache is None else Path(cache), None if columns is None else Path(columns))
-    files = _files(paths)
+    files = _files(paths, aids)
     parts: list[Part] = []
     reports = []
     for number, path in enumerate(files):
@@ -83,14 +84,14 @@ def read(
     return Reading(log, tuple(reports))
 
 
-def _files(paths: Sequence[str | Path]) -> list[Path]:
+def _files(paths: Sequence[str | Path], aids: Aids) -> list[Path]:
     """Every file that the paths name, each once; folders and globs sorted, companions in folders left out."""
     found: list[Path] = []
     for given in paths:
         path = Path(given)
         if path.is_dir():
             inside = [p for p in sorted(path.iterdir()) if p.is_file() and not p.name.startswith(".")]
-            recognised = [p for p in inside if format_of(p)]
+            recognised = [p for p in inside if format_of(p) or (aids.columns and p.suffix.lower() in ENDINGS)]
             if not recognised:
                 raise InputError(path, f"holds no log; readable are {', '.join(FORMATS)}")
             found += [p for p in inside if p in recognised or not _is_companion(p)]

@@ -70,6 +70,7 @@ def replay(
     outputs: Sequence[str | Path] = (),
     *,
     format: str | None = None,
+    columns: str | Path | None = None,
     start: str | None = None,
     end: str | None = None,
     strict: bool = False,
@@ -82,14 +83,14 @@ def replay(
     Parameters
     ----------
     paths : files, folders, globs. outputs : files; the ending picks the writer.
-    format : read every file as this format.
+    format : read every file as this format. columns : TOML that maps the columns of plain tables.
     start, end : ISO 8601 UTC, or seconds since the log's first sample; the part with start <= time < end is taken.
     strict : a file that cannot be read, or not as a whole, is an InputError, and nothing is written.
     progress : is told the files read and the files to read. stage : is told what is done after that.
     """
     targets = [Path(path) for path in outputs]
     check_outputs(targets, SUFFIXES, force)
-    reading = read(paths, format, progress)
+    reading = read(paths, format, progress, columns=columns)
     log = reading.log
     broken = [report for report in reading.files if report.error is not None]
     if strict and broken:
@@ -102,9 +103,10 @@ def replay(
                 "--start, --end",
                 f"no sample lies there; the log runs {iso(reading.log.start_ns)} to {iso(reading.log.end_ns)}",
             )
-    check_not_inputs(targets, [report.path for report in reading.files])
+    mappings = [] if columns is None else [Path(columns)]
+    check_not_inputs(targets, [*(report.path for report in reading.files), *mappings])
     inputs = [report.path for report in reading.files if report.kept]
-    log = log.with_metadata(provenance=provenance_json(inputs=inputs, origin=log.origin))
+    log = log.with_metadata(provenance=provenance_json(inputs=[*inputs, *mappings], origin=log.origin))
     if stage is not None and targets:
         stage("writing")
     write(log, *targets, force=force)
