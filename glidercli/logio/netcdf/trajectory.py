@@ -17,7 +17,7 @@ from glidercli.logio.netcdf.variables import COMPUTED, Values, attributes, value
 from glidercli.logio.plausible import quantity_of
 from glidercli.logio.quantities import channel_of, submerged
 from glidercli.logio.reader import Part
-from glidercli.logio.records import usable
+from glidercli.logio.records import sampled, usable
 from glidercli.logio.report import FileReport
 
 __all__ = ["Positions", "Rows", "found_in", "part_of"]
@@ -108,8 +108,7 @@ def part_of(path: Path, format: str, rows: Rows, holds: tuple[str, ...] = ()) ->
         channels["conductivity"] = Channel("conductivity", wet.time_ns, wet.values, origin)
     if "conductivity" in rows.found:
         channels |= {name: _based(channels[name], channels, warnings) for name in COMPUTED if name in channels}
-    sampled = np.concatenate([c.time_ns for c in channels.values()] or [rows.time_ns[:0]])
-    kept[good] = np.isin(rows.time_ns[good], sampled)
+    kept[good] = sampled(rows.time_ns[good], channels)
     if unused := int((~kept[good]).sum()):
         dropped["no usable value"] += unused
     record_ns = rows.time_ns.copy()

@@ -16,6 +16,7 @@ from glidercli.logio.netcdf.times import times_of
 from glidercli.logio.own.csv_metadata import events_of, parsed_metadata, texts_of
 from glidercli.logio.own.netcdf_log import EXACT_TIME, METADATA_ATTRIBUTE
 from glidercli.logio.reader import Aids, Part
+from glidercli.logio.records import sampled
 from glidercli.logio.report import FileReport
 
 __all__ = ["is_own_netcdf", "read_own_netcdf", "read_own_netcdf_log"]
@@ -29,9 +30,9 @@ def is_own_netcdf(path: Path) -> bool:
 def read_own_netcdf(path: Path, aids: Aids = Aids()) -> Part:
     """The file's Log, and its account: a record is a time of the file, kept where a channel has a sample."""
     time_ns, log = _read(path)
-    sampled = np.isin(time_ns, np.concatenate([c.time_ns for c in log.channels.values()] or [time_ns[:0]]))
-    dropped = (("no value", int((~sampled).sum())),) if not sampled.all() else ()
-    return Part(log, FileReport(path, "glider-nc", len(time_ns), int(sampled.sum()), dropped), time_ns[sampled])
+    kept = sampled(time_ns, log.channels)
+    dropped = (("no value", int((~kept).sum())),) if not kept.all() else ()
+    return Part(log, FileReport(path, "glider-nc", len(time_ns), int(kept.sum()), dropped), time_ns[kept])
 
 
 def read_own_netcdf_log(path: Path) -> Log:

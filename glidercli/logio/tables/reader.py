@@ -47,7 +47,7 @@ def read_table(path: Path, aids: Aids = Aids()) -> Part:
     from glidercli.logio.netcdf.fixes import fixes
     from glidercli.logio.plausible import quantity_of
     from glidercli.logio.quantities import channel_of
-    from glidercli.logio.records import usable
+    from glidercli.logio.records import sampled, usable
     from glidercli.logio.tables.cells import read_cells
     from glidercli.logio.tables.mapping_file import load_mapping, mapping_beside
     from glidercli.logio.tables.times import times_of
@@ -79,7 +79,7 @@ def read_table(path: Path, aids: Aids = Aids()) -> Part:
         for name, place in zip(("latitude", "longitude"), places, strict=True):
             channels[name] = Channel(name, time_ns[good][at], place[at], mapping.columns[name].origin or origin)
     channels = {name: channel for name, channel in channels.items() if len(channel)}
-    kept = np.isin(time_ns[good], np.concatenate([c.time_ns for c in channels.values()] or [time_ns[:0]]))
+    kept = sampled(time_ns[good], channels)
     if unused := int((~kept).sum()):
         dropped["no usable value"] += unused
     told = {
