@@ -169,6 +169,7 @@ def test_each_trap_is_dropped_by_name(tmp_path: Path, row: str, reason: str) -> 
         ("2020-01-01T00:00:05Z,x,2,3", "Depth: 1 cells left out that are no number"),
         ("2020-01-01T00:00:05Z,inf,2,3", "Depth: 1 cells left out that are no number"),
         ("2020-01-01T00:00:05Z,-9999,2,3", "Depth: 1 cells of 9999 or -9999 left out, no value"),
+        ("2020-01-01T00:00:05Z,1e308,2,3", "Depth: 1 values outside -10..12000 m left out"),
         ("2020-01-01T00:00:05Z,1,200,3", "p: 1 values outside -1.5708..1.5708 rad left out"),
     ],
 )

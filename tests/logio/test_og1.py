@@ -59,6 +59,7 @@ def test_a_seaglider_mission() -> None:
     assert log.metadata["trajectory"] == "sg033_20100903T182416"
     assert any("TEMP" in w and "flagged 8 (interpolated) left out" in w for w in report.warnings)
     assert any(w.startswith("LATITUDE, LONGITUDE: 3300 positions left out") for w in report.warnings)
+    assert "variables not known and not used: DAVG_CURR_EAST, GLIDE_SPEED, DEPTH_Z" in report.warnings
     assert [log[n].origin for n in ("pressure", "temperature", "depth", "salinity", "phase")] == [
         "measured", "measured", "derived", "derived", "derived",
     ]  # fmt: skip

@@ -28,6 +28,12 @@ Times = NDArray[np.int64]
 NO_MEASUREMENT = ("depth", "phase")
 """Channels that publishers fill in at rows where only a position was recorded."""
 
+TOLD_OF = (
+    "TIME", "LATITUDE", "LONGITUDE", "TIME_GPS", "LATITUDE_GPS", "LONGITUDE_GPS", "PHASE",
+    "time", "lat", "lon", "latitude", "longitude",
+)  # fmt: skip
+"""Variables that the readers of files read themselves, or say what becomes of them."""
+
 
 @dataclasses.dataclass(frozen=True)
 class Positions:
@@ -77,6 +83,10 @@ def found_in(
         values = None if variable is None else values_of(file, variable, channel, warnings)
         if values is not None:
             found[channel] = values
+    known = {*chosen.values(), *TOLD_OF}
+    other = [name for name in along if name not in known and not name.lower().endswith(("_qc", "_flag"))]
+    if other:
+        warnings.append(f"variables not known and not used: {', '.join(other)}")
     return found
 
 

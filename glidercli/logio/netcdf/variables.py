@@ -21,6 +21,9 @@ Array = NDArray[np.float64]
 
 BAD = {3: "probably bad", 4: "bad", 6: "unused flag", 7: "unused flag", 8: "interpolated", 9: "missing"}
 CHANGED = 5
+LARGEST = 1e200
+"""Larger numbers are impossible for any channel, and products with them stay numbers."""
+LONGEST_TEXT = 4096
 COMPUTED = ("salinity", "density", "absolute_salinity", "conservative_temperature")
 """Never measured: computed from conductivity, temperature and pressure."""
 
@@ -44,7 +47,7 @@ def attributes(variable: Any) -> dict[str, Any]:
 
 def text_of(file: Any, name: str) -> str:
     """The text that a variable or a global attribute holds; "" where there is none."""
-    if name in file.variables and not file[name].dimensions[1:]:
+    if name in file.variables and not file[name].dimensions[1:] and file[name].size <= LONGEST_TEXT:
         found = np.atleast_1d(file[name][...])
         if found.dtype.kind == "S":
             return b"".join(found.tolist()).decode("utf-8", "replace").strip("\0 ")
@@ -84,7 +87,8 @@ def values_of(file: Any, name: str, channel: str, warnings: list[str]) -> Values
         warnings.append(f"{name}: left out, {says}; known are {', '.join(units_of(channel))}")
         return None
     stored = np.atleast_1d(variable[...])
-    good = np.isfinite(stored)
+    good = ~np.isnan(stored)
+    good &= ~_counted(name, np.isinf(stored), "infinite left out", warnings)
     for key in ("_FillValue", "missing_value"):
         good &= ~np.isin(stored, np.atleast_1d(told.get(key, np.nan)))
     good &= ~_counted(name, good & ~_valid(stored, told), "outside the file's own valid range left out", warnings)
@@ -94,7 +98,8 @@ def values_of(file: Any, name: str, channel: str, warnings: list[str]) -> Values
             why = f"flagged {flag} ({meaning}) left out"
             good &= ~_counted(name, good & (flags == flag), why, warnings)
         _counted(name, good & (flags == CHANGED), f"flagged {CHANGED} (changed by its publisher) kept", warnings)
-    values = stored.astype(np.float64) * float(told.get("scale_factor", 1.0)) + float(told.get("add_offset", 0.0))
+    bounded = np.clip(stored.astype(np.float64), -LARGEST, LARGEST)
+    values = bounded * float(told.get("scale_factor", 1.0)) + float(told.get("add_offset", 0.0))
     sign = -1.0 if channel == "depth" and str(told.get("positive", "")).lower() == "up" else 1.0
     values = sign * (values * to_si.factor + to_si.offset)
     origin: Origin = "derived" if channel in COMPUTED or _is_computed(told) else "measured"

@@ -34,7 +34,7 @@ from glidercli.logio.netcdf.times import zero_and_unit
 __all__ = ["NUMBERS", "Column", "File", "Mapping", "Missing", "Time"]
 
 _CONFIG = ConfigDict(extra="forbid", strict=False)
-_Number = Annotated[float, Field(allow_inf_nan=False, strict=True)]
+_Number = Annotated[float, Field(ge=-1e12, le=1e12, allow_inf_nan=False, strict=True)]
 NUMBERS = ("unix", "unix_ms", "matlab")
 """Formats of times that are numbers, beside "UNIT since DATE"."""
 

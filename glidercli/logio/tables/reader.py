@@ -23,6 +23,8 @@ Times = NDArray[np.int64]
 
 ENDINGS = (".csv", ".tsv", ".txt", ".dat", ".asc", ".parquet")
 """Of tables that a mapping beside them is sought for."""
+LARGEST = 1e200
+"""Larger numbers are impossible for any channel, and products with them stay numbers."""
 FEW = 3
 """Of fewer channels zeros alone are no sign of a record without content: a depth may be 0."""
 UNSAID = "taken as measured: the mapping does not say where the values come from ([file] origin)"
@@ -118,7 +120,8 @@ def _values(columns: MappingOf[str, Any], mapping: Any, warnings: list[str]) -> 
         recorded = without_sentinels(column.column, recorded, mapping.missing.values, warnings)
         to_si = conversion(column.unit, channel)
         assert to_si is not None  # load_mapping has checked it
-        values[channel] = (column.scale * recorded + column.offset) * to_si.factor + to_si.offset
+        bounded = np.clip(recorded, -LARGEST, LARGEST)
+        values[channel] = (column.scale * bounded + column.offset) * to_si.factor + to_si.offset
     return values
 
 
