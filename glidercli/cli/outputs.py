@@ -37,7 +37,7 @@ def check_log_outputs(paths: Sequence[Path], force: bool, json: bool, pictures: 
 def write_log(log: Log, paths: Sequence[Path], force: bool, quiet: bool) -> None:
     """Write the log to every path, or to none; "-" is CSV on stdout."""
     from glidercli.logio import write
-    from glidercli.logio.csv_log import CsvTable
+    from glidercli.logio.own.csv_log import CsvTable
 
     files = [path for path in paths if path != _STDOUT]
     write(log, *files, force=force)
@@ -63,7 +63,7 @@ class Sink:
 
     def finish(self, log: Log) -> None:
         """Write what is not yet written. log : the whole, or the last piece where pieces were taken."""
-        from glidercli.logio.csv_log import CsvTable
+        from glidercli.logio.own.csv_log import CsvTable
 
         if self.piece is None:
             self._saving.add(log)

@@ -7,12 +7,18 @@ from pathlib import Path
 from glidercli.errors import InputError, UsageError
 from glidercli.files import readable_file
 from glidercli.gzipped import is_gzip
-from glidercli.logio.csv_log import is_csv, read_csv
+from glidercli.logio.netcdf.ioos import is_ioos, read_ioos
+from glidercli.logio.netcdf.og1 import is_og1, read_og1
+from glidercli.logio.netcdf.opening import is_netcdf, opened
+from glidercli.logio.own.csv_log import is_csv, read_csv
+from glidercli.logio.own.netcdf_back import is_own_netcdf, read_own_netcdf
+from glidercli.logio.own.parquet_back import is_own_parquet, read_own_parquet
 from glidercli.logio.reader import Aids, Format, Part
 from glidercli.logio.seaexplorer import is_seaexplorer, read_seaexplorer
 from glidercli.logio.seaglider import is_seaglider, read_seaglider
+from glidercli.logio.tables import ENDINGS, is_table, read_table
 
-__all__ = ["FORMATS", "check_format", "format_of", "read_file"]
+__all__ = ["FORMATS", "check_format", "format_of", "read_file", "unrecognised"]
 
 
 def _is_mcap(path: Path) -> bool:
@@ -29,9 +35,14 @@ def _read_mcap(path: Path, aids: Aids) -> Part:
 
 FORMATS: dict[str, Format] = {
     "glider-mcap": Format(_is_mcap, _read_mcap, own=True),
+    "glider-nc": Format(is_own_netcdf, read_own_netcdf, own=True),
+    "glider-parquet": Format(is_own_parquet, read_own_parquet, own=True),
+    "og1": Format(is_og1, read_og1),
+    "ioos": Format(is_ioos, read_ioos),
     "seaexplorer": Format(is_seaexplorer, read_seaexplorer),
     "seaglider": Format(is_seaglider, read_seaglider),
     "glider-csv": Format(is_csv, read_csv, own=True),
+    "table": Format(is_table, read_table),
 }
 """Formats by name, asked in this order."""
 
@@ -42,21 +53,37 @@ def check_format(name: str | None) -> None:
         raise UsageError(f"--format: {name} is no format; allowed: {', '.join(FORMATS)}")
 
 
-def format_of(path: Path) -> str | None:
-    """The name of a file's format, or None where it is none of them or cannot be read."""
+def format_of(path: Path, aids: Aids) -> str | None:
+    """The name of a file's format, or None where it is none of them or cannot be read.
+
+    Where a mapping of columns is given, tables of no other format are of format table.
+    """
     try:
-        return next((name for name, format in FORMATS.items() if format.recognises(path)), None)
+        found = next((name for name, format in FORMATS.items() if format.recognises(path)), None)
     except OSError:
         return None
+    return "table" if found is None and aids.columns and path.suffix.lower() in ENDINGS else found
+
+
+def unrecognised(path: Path) -> InputError:
+    """What is wrong with a file that is of no format."""
+    kinds = ", ".join(FORMATS)
+    if is_netcdf(path):
+        try:
+            with opened(path):
+                what = "is NetCDF, but none of the kinds that can be read"
+        except InputError as damaged:
+            return damaged
+    else:
+        with path.open("rb") as stream:
+            packed = is_gzip(stream.read(2))
+        what = "is gzip data that unpack to no log: damaged, or not one" if packed else "is not a log that can be read"
+    return InputError(path, f"{what}; readable are {kinds}")
 
 
 def read_file(path: Path, format: str | None, aids: Aids) -> Part:
     """What one file gives. format : its name, or None to go by content."""
-    readable_file(path)
-    name = format or format_of(path)
+    name = format or format_of(readable_file(path), aids)
     if name is None:
-        with path.open("rb") as stream:
-            packed = is_gzip(stream.read(2))
-        what = "is gzip data that unpack to no log: damaged, or not one" if packed else "is not a log that can be read"
-        raise InputError(path, f"{what}; readable are {', '.join(FORMATS)}")
-    return FORMATS[name].read(path, aids)
+        raise unrecognised(path)
+    return FORMATS[name].read(readable_file(path), aids)

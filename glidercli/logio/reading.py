@@ -9,8 +9,9 @@ from pathlib import Path
 
 from glidercli.errors import InputError
 from glidercli.log import Log
+from glidercli.logio.companions import is_companion
 from glidercli.logio.derived import with_derived
-from glidercli.logio.formats import FORMATS, check_format, format_of
+from glidercli.logio.formats import FORMATS, check_format
 from glidercli.logio.joining import joined
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport
@@ -31,13 +32,6 @@ class Reading:
     files: tuple[FileReport, ...]
     dives: tuple[str, ...] = ()
     partners: tuple[tuple[str, str], ...] = ()
-
-
-COMPANIONS = (
-    ".md", ".rst", ".txt", ".toml", ".json", ".py", ".png", ".svg", ".pdf", ".html", ".rrd", ".m", ".cap", ".asc",
-    ".dat",
-)  # fmt: skip
-"""Endings of what stands in a folder beside logs: notes, settings, pictures, outputs that are not read back."""
 
 
 def read(
@@ -69,16 +63,15 @@ def read(
     files = _files(paths)
     parts: list[Part] = []
     reports: dict[Path, FileReport] = {}
-    for found in read_all(files, format, aids, progress, workers):
+    for found in read_all(list(files), format, aids, progress, workers):
+        report = found.report if isinstance(found, Part) else found
+        if report.format is None and files[report.path] and is_companion(report.path):
+            continue
+        reports[report.path] = report
         if isinstance(found, Part):
-            reports[found.report.path] = found.report
             parts.append(found)
-        else:
-            reports[found.path] = found
     if not parts:
-        first = reports[files[0]]
-        more = f" (and {len(files) - 1} more files)" if len(files) > 1 else ""
-        raise InputError(first.path, f"{first.error}{more}")
+        raise _nothing(paths, list(reports.values()))
     dives = tuple(dict.fromkeys(part.dive for part in parts if part.dive))
     held = {"", *(name for part in parts for name in part.holds)}
     partners = tuple((part.partner, part.report.path.name) for part in parts if part.partner not in held)
@@ -86,30 +79,30 @@ def read(
     reports |= {report.path: report for report in whole}
     if not all(FORMATS[report.format].own for report in whole if report.format):
         log = with_derived(log)
-    return Reading(log, tuple(reports[path] for path in files), dives, partners)
+    return Reading(log, tuple(reports.values()), dives, partners)
 
 
-def _files(paths: Sequence[str | Path]) -> list[Path]:
-    """Every file that the paths name, each once; folders and globs sorted, companions in folders left out."""
-    found: list[Path] = []
+def _files(paths: Sequence[str | Path]) -> dict[Path, bool]:
+    """Every file that the paths name, each once, those of folders and globs sorted; and whether a folder holds it."""
+    found: list[tuple[Path, bool]] = []
     for given in paths:
         path = Path(given)
         if path.is_dir():
-            inside = [p for p in sorted(path.iterdir()) if p.is_file() and not p.name.startswith(".")]
-            recognised = {p: format_of(p) is not None for p in inside}
-            if not any(recognised.values()):
-                raise InputError(path, f"holds no log; readable are {', '.join(FORMATS)}")
-            found += [p for p in inside if recognised[p] or not _is_companion(p)]
+            found += [(p, True) for p in sorted(path.iterdir()) if p.is_file() and not p.name.startswith(".")]
         elif path.exists() or not glob.has_magic(str(given)):
-            found.append(path)
+            found.append((path, False))
         else:
             matches = sorted(Path(match) for match in glob.glob(str(given)))
             if not matches:
                 raise InputError(given, "no file matches")
-            found += [match for match in matches if match.is_file()]
-    return list({path.resolve(): path for path in reversed(found)}.values())[::-1]
+            found += [(match, False) for match in matches if match.is_file()]
+    once = {path.resolve(): (path, of_folder) for path, of_folder in reversed(found)}
+    return dict(reversed(once.values()))
 
 
-def _is_companion(path: Path) -> bool:
-    """Whether a file of no known format only goes with the logs of its folder; another one is named as broken."""
-    return path.suffix.lower() in COMPANIONS or path.name.upper().startswith(("README", "LICENSE", "LICENCE"))
+def _nothing(paths: Sequence[str | Path], reports: list[FileReport]) -> InputError:
+    """Why nothing was read. reports : of files that are no companions."""
+    if not reports or (all(report.format is None for report in reports) and all(Path(p).is_dir() for p in paths)):
+        return InputError(" ".join(map(str, paths)), f"holds no log; readable are {', '.join(FORMATS)}")
+    more = f" (and {len(reports) - 1} more files)" if len(reports) > 1 else ""
+    return InputError(reports[0].path, f"{reports[0].error}{more}")

@@ -13,7 +13,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["NO_TIME", "in_order", "usable"]
+from glidercli.log import Channel
+
+__all__ = ["NO_TIME", "in_order", "sampled", "usable"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -51,6 +53,14 @@ def usable(time_ns: Times, cells: Mapping[str, Array], dropped: Counter[str]) ->
     good &= told & sized
     good[good] = in_order(time_ns[good], dropped)
     return good
+
+
+def sampled(time_ns: Times, channels: Mapping[str, Channel]) -> Mask:
+    """Which records gave a sample to a channel, (n,). time_ns : (n,) increasing; every sample is at one of them."""
+    gave = np.zeros(len(time_ns), dtype=bool)
+    for channel in channels.values():
+        gave[np.searchsorted(time_ns, channel.time_ns)] = True
+    return gave
 
 
 def _count(dropped: Counter[str], reason: str, which: Mask) -> None:

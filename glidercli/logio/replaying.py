@@ -105,9 +105,10 @@ def replay(
                 "--start, --end",
                 f"no sample lies there; the log runs {iso(reading.log.start_ns)} to {iso(reading.log.end_ns)}",
             )
-    check_not_inputs(targets, [report.path for report in reading.files])
+    mappings = [] if columns is None else [Path(columns)]
+    check_not_inputs(targets, [*(report.path for report in reading.files), *mappings])
     inputs = [report.path for report in reading.files if report.kept]
-    log = log.with_metadata(provenance=provenance_json(inputs=inputs, origin=log.origin))
+    log = log.with_metadata(provenance=provenance_json(inputs=[*inputs, *mappings], origin=log.origin))
     if stage is not None and targets:
         stage("writing")
     write(log, *targets, force=force)

@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from glidercli.errors import GliderError
-from glidercli.logio.formats import read_file
+from glidercli.files import readable_file
+from glidercli.logio.formats import FORMATS, format_of, unrecognised
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport
 
@@ -58,10 +59,15 @@ def _deaf() -> None:
 
 
 def _read(path: Path, format: str | None, aids: Aids) -> Part | FileReport:
+    """What a file gives; where it gives nothing the report, with the format as far as it was recognised."""
+    name = format
     try:
-        part = read_file(path, format, aids)
+        name = format or format_of(readable_file(path), aids)
+        if name is None:
+            raise unrecognised(path)
+        part = FORMATS[name].read(readable_file(path), aids)
     except GliderError as error:
-        return FileReport(path, None, 0, 0, error=str(error).removeprefix(f"{path}: "))
+        return FileReport(path, name, 0, 0, error=str(error).removeprefix(f"{path}: "))
     if part.log.channels:
         return part
     why = ", ".join(f"{count} {reason}" for reason, count in part.report.dropped)

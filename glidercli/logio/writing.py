@@ -15,8 +15,8 @@ from typing import Any
 from glidercli.errors import OutputError
 from glidercli.files import atomic, metadata_path
 from glidercli.log import Log
-from glidercli.logio.csv_log import CsvTable
-from glidercli.logio.csv_metadata import metadata_of, write_metadata
+from glidercli.logio.own.csv_log import CsvTable
+from glidercli.logio.own.csv_metadata import metadata_of, write_metadata
 from glidercli.provenance import provenance_json
 
 __all__ = ["SUFFIXES", "TABLES", "Saving", "saving", "write"]
@@ -54,11 +54,11 @@ class Saving:
             if suffix == ".csv":
                 table: Any = CsvTable(pending.enter_context(part.open("w", encoding="utf-8", newline="")))
             elif suffix == ".parquet":
-                from glidercli.logio.parquet_log import ParquetTable
+                from glidercli.logio.own.parquet_log import ParquetTable
 
                 table = ParquetTable(part)
             elif suffix == ".nc":
-                from glidercli.logio.netcdf_log import NetcdfTable
+                from glidercli.logio.own.netcdf_log import NetcdfTable
 
                 table = NetcdfTable(part)
             else:

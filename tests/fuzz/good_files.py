@@ -27,7 +27,7 @@ class GoodFile:
 
     @functools.cached_property
     def format(self) -> str | None:
-        return format_of(self.path)
+        return format_of(self.path, self.aids)
 
     @functools.cached_property
     def part(self) -> Part:

@@ -16,7 +16,7 @@ from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import InputError
 from glidercli.log import Channel, Log
 from glidercli.logio import read, write
-from glidercli.logio.csv_log import CsvTable
+from glidercli.logio.own.csv_log import CsvTable
 
 NUMBER = st.floats(-1e12, 1e12, allow_subnormal=False)
 TIMES = st.lists(st.integers(0, 10**18), min_size=1, max_size=12, unique=True).map(sorted)

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, TextIO, cast
+from typing import Any, TextIO
 
 import numpy as np
 
 from glidercli.channels import PHASES, by_column
 from glidercli.errors import InputError
 from glidercli.files import metadata_path
-from glidercli.log import Channel, Event, Log, Origin
-from glidercli.logio.csv_metadata import origin_word, read_metadata, stranger
+from glidercli.log import Log
+from glidercli.logio.own.csv_metadata import origin_word, read_metadata, stranger
+from glidercli.logio.own.table_back import log_of, part_of
 from glidercli.logio.reader import Aids, Part
-from glidercli.logio.report import FileReport
 from glidercli.origins import BOTH, column_name, origins
 from glidercli.provenance import file_hash
 
@@ -96,12 +95,6 @@ def read_csv(path: Path, aids: Aids = Aids()) -> Part:
             table[name] = _phases(path, text[name]) if spec.name == "phase" else _numbers(path, name, text[name])
     metadata = read_metadata(path)
     warnings = [f"columns not known and not used: {', '.join(unknown)}"] if unknown else []
-    told = {key: v if isinstance(v, str) else json.dumps(v) for key, v in metadata.get("metadata", {}).items()}
-    if "time_utc" not in text:
-        told["time_note"] = "the date is arbitrary: the table has elapsed_s alone"
-    if "origin" not in metadata and "origin" not in text:
-        told["origin_note"] = "taken as measured: the table does not say where its values come from"
-        warnings.append(told["origin_note"])
     word = _origin_of_rows(path, text, warnings)
     beside = metadata_path(path).name
     if metadata:
@@ -113,18 +106,9 @@ def read_csv(path: Path, aids: Aids = Aids()) -> Part:
             warnings.append(f"has changed since {beside} was written; what that says of origins is kept")
     elif word == BOTH:
         warnings.append(f"{beside} is missing: which channels are derived is not known, all are taken as derived")
-    of_rows = "derived" if word == BOTH else cast(Origin, word or "measured")
-    origin: Origin = metadata.get("origin", of_rows)
-    log = Log.from_table(table, origin, told)
-    origins, other = metadata.get("channels", {}), "derived" if word == BOTH else origin
-    channels = [Channel(c.name, c.time_ns, c.values, origins.get(c.name, other)) for c in log.channels.values()]
-    events = tuple(Event(e["name"], e["time_ns"], e["depth_m"]) for e in metadata.get("events", []))
-    log = Log({channel.name: channel for channel in channels if len(channel)}, origin, log.metadata, events)
-    kept = table.drop(columns="time_utc").notna().any(axis=1).to_numpy()
-    dropped = {"no value": int((~kept).sum()), "wrong number of fields": cut}
-    reasons = tuple((reason, count) for reason, count in dropped.items() if count)
-    report = FileReport(path, "glider-csv", len(table) + cut, int(kept.sum()), reasons, tuple(warnings))
-    return Part(log, report, table["time_utc"].to_numpy().astype(np.int64)[kept])
+    log = log_of(table, metadata, word, "time_utc" in text, warnings)
+    log = Log({c.name: c for c in log.channels.values() if len(c)}, log.origin, log.metadata, log.events)
+    return part_of(path, "glider-csv", log, table, {"wrong number of fields": cut}, warnings)
 
 
 def _check_same(path: Path, table: Any, metadata: dict[str, Any], dated: bool) -> None:

@@ -11,11 +11,14 @@ import numpy as np
 
 from glidercli.errors import InputError
 from glidercli.files import metadata_path
-from glidercli.log import Log, Origin
+from glidercli.log import Event, Log, Origin
 from glidercli.origins import BOTH
 from glidercli.provenance import file_hash
 
-__all__ = ["metadata_of", "origin_word", "read_metadata", "stranger", "write_metadata"]
+__all__ = [
+    "events_of", "metadata_of", "origin_word", "parsed_metadata", "read_metadata", "stranger", "texts_of",
+    "write_metadata",
+]  # fmt: skip
 
 _KINDS: dict[str, type] = {"origin": str, "metadata": dict, "channels": dict, "events": list}
 
@@ -30,15 +33,33 @@ def origin_word(origin: str, metadata: Mapping[str, Any], of_channels: Collectio
 def metadata_of(log: Log, span_ns: tuple[int, int] | None) -> dict[str, Any]:
     """Origin, metadata with provenance, the channels' origins, events. span_ns : first and last time of the table."""
     told: dict[str, Any] = dict(log.metadata)
-    if "provenance" in told:
-        told["provenance"] = json.loads(told["provenance"])
+    record = _unpacked(told.get("provenance", ""))
     return {
         "origin": log.origin,
-        "metadata": told,
+        "metadata": told | ({} if record is None else {"provenance": record}),
         "channels": {name: channel.origin for name, channel in log.channels.items() if len(channel)},
         "events": [{"name": e.name, "time_ns": e.time_ns, "depth_m": e.depth} for e in log.events],
         "span_ns": list(span_ns) if span_ns else None,
     }
+
+
+def _unpacked(text: str) -> dict[str, Any] | None:
+    """The object of a JSON text, None where it would not give back the same text."""
+    try:
+        found = json.loads(text)
+    except ValueError:
+        return None
+    return found if isinstance(found, dict) and json.dumps(found) == text else None
+
+
+def texts_of(metadata: Mapping[str, Any]) -> dict[str, str]:
+    """The metadata of the log: what ``metadata_of`` unpacked is a text again."""
+    return {key: v if isinstance(v, str) else json.dumps(v) for key, v in metadata["metadata"].items()}
+
+
+def events_of(metadata: Mapping[str, Any]) -> tuple[Event, ...]:
+    """The events of the log."""
+    return tuple(Event(e["name"], e["time_ns"], e["depth_m"]) for e in metadata["events"])
 
 
 def write_metadata(told: Mapping[str, Any], path: Path, table: Path) -> None:
@@ -53,15 +74,22 @@ def read_metadata(table: Path) -> dict[str, Any]:
     if not path.is_file():
         return {}
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except ValueError:
-        fault = "it is no JSON"
+        text = path.read_bytes()
     except OSError as error:
         raise InputError(table, f"{path.name} cannot be read: {error.strerror}") from None
+    return parsed_metadata(table, f"{path.name} is not the metadata of a log's CSV", text)
+
+
+def parsed_metadata(table: Path, what: str, text: str | bytes) -> dict[str, Any]:
+    """What ``metadata_of`` gave, from JSON; InputError that begins with ``what`` for anything else."""
+    try:
+        found = json.loads(text)
+    except (ValueError, RecursionError):
+        fault = "it is no JSON"
     else:
         fault = _fault(found)
     if fault:
-        raise InputError(table, f"{path.name} is not the metadata of a log's CSV: {fault}")
+        raise InputError(table, f"{what}: {fault}")
     return dict(found)
 
 

@@ -35,12 +35,12 @@ class ParquetTable:
         table["time_utc"] = table["time_utc"].dt.tz_localize("UTC")
         if self._writer is None:
             self._schema = pa.schema([_field(pa, log, str(name)) for name in table.columns])
-            self._writer = parquet.ParquetWriter(self._path, self._schema, compression="zstd")
+            self._writer = parquet.ParquetWriter(self._path, self._schema, compression="zstd", write_page_checksum=True)
         self._writer.write_table(pa.Table.from_pandas(table, self._schema, preserve_index=False))
 
     def close(self, metadata: Mapping[str, Any]) -> None:
         """Finish the file. metadata : what else the log says, as for CSV."""
-        self._writer.add_key_value_metadata({METADATA_KEY: json.dumps(metadata, ensure_ascii=False)})
+        self._writer.add_key_value_metadata({METADATA_KEY: json.dumps(metadata)})
         self._writer.close()
 
 

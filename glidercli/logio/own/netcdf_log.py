@@ -1,8 +1,9 @@
 """How does a Log stand in a NetCDF file? By the CF conventions: a trajectory where the track has a place on Earth.
 
 Values are in SI units, angles in rad, as inside the program, so that nothing is lost on the way out; latitude and
-longitude are in degrees. Times count in seconds from the log's first second, exact to the nanosecond for 48 days. A
-channel without a sample at a time holds the fill value.
+longitude are in degrees. Times stand there twice: in seconds from the log's first second, as other programs like them
+(exact to the nanosecond for 48 days), and as integers, in nanoseconds, exact for ever. A channel without a sample at a
+time holds NaN, which no sample is.
 """
 
 from __future__ import annotations
@@ -18,10 +19,13 @@ from glidercli.channels import CHANNELS, PHASES
 from glidercli.log import Log
 from glidercli.origins import BOTH
 
-__all__ = ["NetcdfTable"]
+__all__ = ["EXACT_TIME", "METADATA_ATTRIBUTE", "NetcdfTable"]
+
+EXACT_TIME = "time_ns"
+METADATA_ATTRIBUTE = "glidercli"
+"""Of the file: the JSON that stands beside a CSV."""
 
 _AXES = {"latitude": ("degrees_north", "Y"), "longitude": ("degrees_east", "X")}
-_FILL = 9.969209968386869e36  # NetCDF's own for doubles: no channel comes near it
 _CHUNK = 16384  # samples
 _CACHE = 8 * 8 * _CHUNK  # bytes for a variable; the library's own grow to 64 MB each
 
@@ -43,11 +47,12 @@ class NetcdfTable:
         time_ns = np.unique(np.concatenate(times)) if times else np.array([], np.int64)
         rows = slice(self._rows, self._rows + len(time_ns))
         self._file["time"][rows] = (time_ns - self._zero_ns) / 1e9
+        self._file[EXACT_TIME][rows] = time_ns
         for name, channel in log.channels.items():
-            column = np.full(len(time_ns), _FILL)
+            column = np.full(len(time_ns), np.nan)
             column[np.searchsorted(time_ns, channel.time_ns)] = channel.values
             if name == "phase":
-                column = np.where(column == _FILL, -1, column).astype("i1")
+                column = np.where(np.isnan(column), -1, column).astype("i1")
             self._file[name][rows] = column
             if len(channel):
                 low, high = self._bounds.get(name, (np.inf, -np.inf))
@@ -68,12 +73,12 @@ class NetcdfTable:
         statement = told.get("reconstruction")
         self._file.setncatts(
             {
-                "title": told.get("title", "glider flight"),
-                "source": _source(metadata) + (f": {statement}" if statement else ""),
-                "history": "written by " + str(_program(told)),
-                "references": told.get("vehicle_reference", "https://doi.org/10.1016/j.oceaneng.2012.12.023"),
+                "title": _plain(told.get("title", "glider flight")),
+                "source": _source(metadata) + (f": {_plain(statement)}" if statement else ""),
+                "history": _plain("written by " + _program(told)),
+                "references": _plain(told.get("vehicle_reference", "https://doi.org/10.1016/j.oceaneng.2012.12.023")),
                 "comment": "Angles in rad. The attribute glidercli holds provenance, events and origins, as JSON.",
-                "glidercli": json.dumps(metadata, ensure_ascii=False),
+                METADATA_ATTRIBUTE: json.dumps(metadata),
             }
         )
         self._file.close()
@@ -97,6 +102,14 @@ class NetcdfTable:
             }
         )  # fmt: skip
         time.set_var_chunk_cache(size=_CACHE, nelems=101)
+        exact = file.createVariable(EXACT_TIME, "i8", ("time",), **chunks)
+        exact.setncatts(
+            {
+                "standard_name": "time", "long_name": "time, UTC, exact", "calendar": "standard",
+                "units": "nanoseconds since 1970-01-01T00:00:00Z",
+            }
+        )  # fmt: skip
+        exact.set_var_chunk_cache(size=_CACHE, nelems=101)
         if has_place:
             file.featureType = "trajectory"
             file.createDimension("name_length", 8)
@@ -110,7 +123,7 @@ class NetcdfTable:
                 flags = np.arange(len(PHASES), dtype="i1")
                 variable.setncatts({"flag_values": flags, "flag_meanings": " ".join(PHASES)})
             else:
-                variable = file.createVariable(name, "f8", ("time",), fill_value=_FILL, **chunks)
+                variable = file.createVariable(name, "f8", ("time",), fill_value=np.nan, **chunks)
                 variable.units = _AXES[name][0] if name in _AXES else _units(spec.unit)
             variable.set_var_chunk_cache(size=_CACHE, nelems=101)
             variable.long_name = spec.meaning
@@ -139,4 +152,14 @@ def _source(metadata: Mapping[str, Any]) -> str:
 
 def _program(told: Mapping[str, Any]) -> str:
     record = told.get("provenance", {})
-    return " ".join([record.get("program", "glidercli"), "-", *record.get("command", [])])
+    if not isinstance(record, dict):
+        return "glidercli"
+    command = record.get("command", [])
+    return " ".join(
+        map(str, [record.get("program", "glidercli"), "-", *(command if isinstance(command, list) else [])])
+    )
+
+
+def _plain(text: str) -> str:
+    """A text for people: what an attribute cannot hold is replaced; the JSON has it as it is."""
+    return text.encode("utf-8", "replace").decode().replace("\0", " ")

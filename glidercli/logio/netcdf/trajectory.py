@@ -1,0 +1,161 @@
+"""How do the variables of a trajectory file become a Part? Every row kept or dropped by a named rule, fixes apart."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glidercli.log import Channel, Event, Log
+from glidercli.logio.netcdf.fixes import fixes
+from glidercli.logio.netcdf.variables import COMPUTED, Values, attributes, values_of
+from glidercli.logio.plausible import quantity_of
+from glidercli.logio.quantities import channel_of, submerged
+from glidercli.logio.reader import Part
+from glidercli.logio.records import sampled, usable
+from glidercli.logio.report import FileReport
+
+__all__ = ["Positions", "Rows", "found_in", "part_of"]
+
+Array = NDArray[np.float64]
+Times = NDArray[np.int64]
+
+NO_MEASUREMENT = ("depth", "phase")
+"""Channels that publishers fill in at rows where only a position was recorded."""
+
+TOLD_OF = (
+    "TIME", "LATITUDE", "LONGITUDE", "TIME_GPS", "LATITUDE_GPS", "LONGITUDE_GPS", "PHASE",
+    "time", "lat", "lon", "latitude", "longitude",
+)  # fmt: skip
+"""Variables that the readers of files read themselves, or say what becomes of them."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Positions:
+    """What may be GPS fixes: a time, deg north and deg east for each row, missing where there is none."""
+
+    names: str
+    time_ns: Times
+    latitude: Array
+    longitude: Array
+
+
+@dataclasses.dataclass(frozen=True)
+class Rows:
+    """The rows of a file: their times, values by channel, positions, and what else is told of them."""
+
+    time_ns: Times
+    found: Mapping[str, Values]
+    positions: Positions | None
+    metadata: Mapping[str, str]
+    warnings: list[str]
+    events: tuple[Event, ...] = ()
+
+
+def found_in(
+    file: Any,
+    dimension: str,
+    names: Mapping[str, Sequence[str]],
+    standard: Mapping[str, str],
+    warnings: list[str],
+) -> dict[str, Values]:
+    """The channels of a file's variables along a dimension, by name, else by standard name.
+
+    names : variable names by channel, the first that is there is taken. standard : channel by standard name.
+    """
+    along = {
+        name: attributes(v)
+        for name, v in file.variables.items()
+        if v.dimensions == (dimension,) and v.dtype != str and v.dtype.kind in "iuf"
+    }
+    chosen = {channel: next((n for n in known if n in along), None) for channel, known in names.items()}
+    for name, told in along.items():
+        channel = standard.get(str(told.get("standard_name", "")))
+        if channel is not None and chosen.get(channel) is None and name not in chosen.values():
+            chosen[channel] = name
+    found = {}
+    for channel, variable in chosen.items():
+        values = None if variable is None else values_of(file, variable, channel, warnings)
+        if values is not None:
+            found[channel] = values
+    known = {*chosen.values(), *TOLD_OF}
+    other = [name for name in along if name not in known and not name.lower().endswith(("_qc", "_flag"))]
+    if other:
+        warnings.append(f"variables not known and not used: {', '.join(other)}")
+    return found
+
+
+def part_of(path: Path, format: str, rows: Rows, holds: tuple[str, ...] = ()) -> Part:
+    """The Log of the rows, and the account. A row of a position alone is judged apart from rows of measurements."""
+    warnings = list(rows.warnings)
+    measured = [v.values for channel, v in rows.found.items() if channel not in NO_MEASUREMENT]
+    measured = measured or [v.values for v in rows.found.values()]
+    blank = np.all([np.isnan(v) for v in measured], axis=0) if measured else np.ones(len(rows.time_ns), dtype=bool)
+    placed = np.zeros(len(rows.time_ns), dtype=bool)
+    if rows.positions is not None:
+        placed = np.isfinite(rows.positions.latitude) & np.isfinite(rows.positions.longitude)
+    alone = blank & placed
+    filled = sum(int(np.isfinite(v.values[alone]).sum()) for v in rows.found.values())
+    if filled:
+        warnings.append(f"{filled} values left out at {int(alone.sum())} rows that hold a position alone")
+    dropped: Counter[str] = Counter()
+    kept = np.zeros(len(rows.time_ns), dtype=bool)
+    good = np.flatnonzero(~alone)
+    good = good[usable(rows.time_ns[good], {c: v.values[good] for c, v in rows.found.items()}, dropped)]
+    channels = {}
+    for channel, v in rows.found.items():
+        made = channel_of(v.name, rows.time_ns[good], v.values[good], quantity_of(channel), warnings, v.origin)
+        if len(made):
+            channels[channel] = made
+    if {"conductivity", "pressure"} <= channels.keys():
+        origin = channels["conductivity"].origin
+        wet = submerged(channels["conductivity"], channels["pressure"], warnings)
+        channels["conductivity"] = Channel("conductivity", wet.time_ns, wet.values, origin)
+    if "conductivity" in rows.found:
+        channels |= {name: _based(channels[name], channels, warnings) for name in COMPUTED if name in channels}
+    kept[good] = sampled(rows.time_ns[good], channels)
+    if unused := int((~kept[good]).sum()):
+        dropped["no usable value"] += unused
+    record_ns = rows.time_ns.copy()
+    if rows.positions is not None:
+        at = _add_fixes(rows.positions, placed & (kept | alone), channels, warnings)
+        if missed := int(alone.sum() - alone[at].sum()):
+            dropped["position that is no new fix at the surface"] += missed
+        record_ns[at] = np.where(alone[at], rows.positions.time_ns[at], record_ns[at])
+        kept[at] = True
+    log = Log({n: c for n, c in channels.items() if len(c)}, "measured", dict(rows.metadata), rows.events)
+    reasons = tuple(sorted((reason, count) for reason, count in dropped.items() if count))
+    report = FileReport(path, format, len(rows.time_ns), int(kept.sum()), reasons, tuple(warnings))
+    return Part(log, report, np.sort(record_ns[kept]), holds=holds, fullness=int(kept.sum()))
+
+
+def _based(computed: Channel, channels: Mapping[str, Channel], warnings: list[str]) -> Channel:
+    """The values that were computed from a conductivity that is used."""
+    base = channels["conductivity"].time_ns if "conductivity" in channels else computed.time_ns[:0]
+    sound = np.isin(computed.time_ns, base)
+    if loose := int((~sound).sum()):
+        warnings.append(f"{computed.name}: {loose} values left out, their conductivity is left out or missing")
+    return Channel(computed.name, computed.time_ns[sound], computed.values[sound], computed.origin)
+
+
+def _add_fixes(
+    positions: Positions, among: NDArray[np.bool_], channels: dict[str, Channel], warnings: list[str]
+) -> NDArray[np.int64]:
+    """Add latitude and longitude to the channels; the rows that they are of."""
+    times = [c.time_ns for c in channels.values() if len(c)]
+    span = (min(int(t[0]) for t in times), max(int(t[-1]) for t in times)) if times else None
+    rows = np.flatnonzero(among)
+    time_ns, latitude, longitude = positions.time_ns[rows], positions.latitude[rows], positions.longitude[rows]
+    at = fixes(time_ns, latitude, longitude, channels.get("depth"), span)
+    if others := len(rows) - len(at):
+        warnings.append(
+            f"{positions.names}: {others} positions left out that are no new fix at the surface, {len(at)} kept"
+        )
+    channels["latitude"] = Channel("latitude", time_ns[at], latitude[at])
+    channels["longitude"] = Channel("longitude", time_ns[at], longitude[at])
+    return rows[at]

@@ -1,0 +1,1 @@
+"""How do the program's own tables come and go? CSV, Parquet and NetCDF: written, and read back."""

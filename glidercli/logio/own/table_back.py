@@ -1,0 +1,54 @@
+"""Which Log does a table in the contract's names make? What its metadata tell; without them, a measured one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+
+from glidercli.log import Channel, Log, Origin
+from glidercli.logio.own.csv_metadata import events_of, texts_of
+from glidercli.logio.reader import Part
+from glidercli.logio.report import FileReport
+from glidercli.origins import BOTH
+
+__all__ = ["log_of", "part_of"]
+
+
+def log_of(table: Any, metadata: Mapping[str, Any], word: str | None, dated: bool, warnings: list[str]) -> Log:
+    """The Log of a table; a channel may have no sample.
+
+    table : time_utc (datetime64[ns], increasing) and columns in the contract's names, NaN where there is no sample.
+    metadata : as ``metadata_of`` gave, or nothing where none came with the table. word : what its rows say of their
+    origin, or None. dated : whether the dates are those of the table. warnings : what is assumed is added.
+    """
+    told = texts_of(metadata) if metadata else {}
+    if not dated:
+        told["time_note"] = "the date is arbitrary: the table has elapsed_s alone"
+    if not metadata and word is None:
+        told["origin_note"] = "taken as measured: the table does not say where its values come from"
+        warnings.append(told["origin_note"])
+    other = cast(Origin, "derived" if word == BOTH else word or "measured")
+    origin: Origin = metadata.get("origin", other)
+    of_channels = metadata.get("channels", {})
+    rest = "derived" if word == BOTH else origin
+    log = Log.from_table(table, origin, told)
+    channels = {
+        c.name: Channel(c.name, c.time_ns, c.values, of_channels.get(c.name, rest)) for c in log.channels.values()
+    }
+    return Log(channels, origin, told, events_of(metadata) if metadata else ())
+
+
+def part_of(path: Path, format: str, log: Log, table: Any, dropped: Mapping[str, int], warnings: list[str]) -> Part:
+    """The Log of a table with its account: a record is a row; one without any value is dropped.
+
+    dropped : rows that are not in the table, by reason.
+    """
+    kept = table.drop(columns="time_utc").notna().any(axis=1).to_numpy()
+    every = {"no value": int((~kept).sum()), **dropped}
+    reasons = tuple((reason, count) for reason, count in every.items() if count)
+    records = len(table) + sum(dropped.values())
+    report = FileReport(path, format, records, int(kept.sum()), reasons, tuple(warnings))
+    return Part(log, report, table["time_utc"].to_numpy().astype("datetime64[ns]").astype(np.int64)[kept])
