@@ -16,6 +16,7 @@ def replay(
         list[str], typer.Argument(metavar="LOG...", help="Files, folders or quoted globs.", show_default=False)
     ],
     format: Annotated[str | None, typer.Option(metavar="NAME", help="Read every file as this format.")] = None,
+    cache: Annotated[Path | None, typer.Option(metavar="DIR", help="Folder of Slocum caches.")] = None,
     start: Annotated[str | None, typer.Option(metavar="T", help="From: ISO 8601 UTC, or s since the start.")] = None,
     end: Annotated[str | None, typer.Option(metavar="T", help="To, not included: ISO 8601 UTC, or s.")] = None,
     strict: Annotated[bool, typer.Option("--strict", help="A file that cannot be read is a failure.")] = False,
@@ -36,8 +37,8 @@ def replay(
     files = [path for path in outputs if path != Path("-")]
     with progress("reading", "files", quiet) as bar:
         played = play(
-            log, files, format=format, start=start, end=end, strict=strict, force=force, progress=bar.tell,
-            stage=bar.stage,
+            log, files, format=format, cache=cache, start=start, end=end, strict=strict, force=force,
+            progress=bar.tell, stage=bar.stage,
         )  # fmt: skip
     warn((f"{report.path}: {report.error}" for report in played.broken), quiet)
     for path in files:

@@ -9,6 +9,7 @@ from glidercli.files import readable_file
 from glidercli.logio.csv_log import is_csv, read_csv
 from glidercli.logio.reader import Aids, Format, Part
 from glidercli.logio.seaexplorer import is_seaexplorer, read_seaexplorer
+from glidercli.logio.slocum import is_slocum, read_slocum
 
 __all__ = ["FORMATS", "check_format", "format_of", "read_file"]
 
@@ -28,6 +29,7 @@ def _read_mcap(path: Path, aids: Aids) -> Part:
 FORMATS: dict[str, Format] = {
     "glider-mcap": Format(_is_mcap, _read_mcap, own=True),
     "seaexplorer": Format(is_seaexplorer, read_seaexplorer),
+    "slocum": Format(is_slocum, read_slocum),
     "glider-csv": Format(is_csv, read_csv, own=True),
 }
 """Formats by name, asked in this order."""

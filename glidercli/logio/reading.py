@@ -27,8 +27,12 @@ class Reading:
     files: tuple[FileReport, ...]
 
 
-COMPANIONS = (".md", ".rst", ".txt", ".toml", ".json", ".py", ".png", ".svg", ".pdf", ".html", ".rrd")
-"""Endings of what stands in a folder beside logs: notes, settings, pictures, outputs that are not read back."""
+COMPANIONS = (
+    ".md", ".rst", ".txt", ".toml", ".json", ".py", ".png", ".svg", ".pdf", ".html", ".rrd",
+    ".cac", ".ccc", ".mi", ".ma", ".mlg", ".nlg", ".mcg", ".ncg", ".mrg",
+)  # fmt: skip
+"""Endings of what stands in a folder beside logs: notes, settings, pictures, outputs that are not read back; of a
+Slocum its sensor lists, missions and the texts of its consoles."""
 
 
 def read(

@@ -70,6 +70,7 @@ def replay(
     outputs: Sequence[str | Path] = (),
     *,
     format: str | None = None,
+    cache: str | Path | None = None,
     start: str | None = None,
     end: str | None = None,
     strict: bool = False,
@@ -83,13 +84,14 @@ def replay(
     ----------
     paths : files, folders, globs. outputs : files; the ending picks the writer.
     format : read every file as this format.
+    cache : folder of Slocum caches, asked after those beside a file.
     start, end : ISO 8601 UTC, or seconds since the log's first sample; the part with start <= time < end is taken.
     strict : a file that cannot be read, or not as a whole, is an InputError, and nothing is written.
     progress : is told the files read and the files to read. stage : is told what is done after that.
     """
     targets = [Path(path) for path in outputs]
     check_outputs(targets, SUFFIXES, force)
-    reading = read(paths, format, progress)
+    reading = read(paths, format, progress, cache=cache)
     log = reading.log
     broken = [report for report in reading.files if report.error is not None]
     if strict and broken:

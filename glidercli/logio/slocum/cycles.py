@@ -41,7 +41,9 @@ class Samples(NamedTuple):
 class Cycles:
     """The cycles of a file that can be relied on.
 
-    data : the file's bytes, unpacked. values_at : (n,), where the values of each cycle begin. states : (n, state bytes).
+    data : the file's bytes, unpacked. values_at : (n,), where the values of each cycle begin. states : (n, state
+    bytes). dump : (n,), whether a cycle tells of every sensor, most of them unchanged: then what is unchanged is the last value
+    known, however old, and no sample; so begin a mission, and a recording after a pause.
     torn : further cycles of which nothing can be used, by reason. error : where and how the file is damaged, or None.
     remark : what else is to be said of its end, or None.
     """
@@ -50,22 +52,13 @@ class Cycles:
     data: bytes
     values_at: NDArray[np.int64]
     states: NDArray[np.uint8]
+    dump: NDArray[np.bool_]
     torn: dict[str, int]
     error: str | None = None
     remark: str | None = None
 
     def __len__(self) -> int:
         return len(self.values_at)
-
-    @functools.cached_property
-    def full(self) -> NDArray[np.bool_]:
-        """Whether a cycle tells of every sensor, (n,)."""
-        count = len(self.header.sensors)
-        idle = np.zeros(len(self), dtype=np.int64)
-        for slot in range(4):
-            columns = self.states[:, : -(-(count - slot) // 4)]
-            idle += ((columns >> (6 - 2 * slot)) & 3 == 0).sum(axis=1)
-        return idle == 0
 
     @functools.cached_property
     def _sizes(self) -> NDArray[np.int32]:
@@ -82,9 +75,9 @@ class Cycles:
     @functools.cached_property
     def _before(self) -> NDArray[np.int64]:
         """Where the values of a state byte's sensors begin, (state bytes, n)."""
-        table = self._sizes.astype(np.float32) @ NEW.astype(np.float32)  # exact: at most 32 bytes
-        lengths = np.take_along_axis(table.astype(np.int64), self._columns, axis=1)
-        return np.cumsum(lengths, axis=0) - lengths + self.values_at
+        table = self._sizes @ NEW
+        lengths: NDArray[np.int64] = np.take_along_axis(table, self._columns, axis=1).astype(np.int64)
+        return np.asarray(lengths.cumsum(axis=0) - lengths + self.values_at)
 
     def _numbers(self, size: int) -> NDArray[np.generic]:
         """The number of this size that begins at each byte of the file: a view, nothing is copied."""
@@ -121,7 +114,9 @@ def scan(header: Header, data: bytes) -> Cycles:
     for size in FLOATING + INTEGER:
         new = sum(2 << (bits - 2 * (i + 1)) for i, sensor in enumerate(header.sensors) if sensor.size == size)
         masks += [(size, new)] if new else []
+    every = low >> (bits - 2 * len(header.sensors)) << (bits - 2 * len(header.sensors))
     starts: list[int] = []
+    dumps: list[int] = []
     states: list[bytes] = []
     at, end, fault = header.begin, len(data), ""
     while at < end and data[at] == CYCLE:
@@ -137,13 +132,16 @@ def scan(header: Header, data: bytes) -> Cycles:
             length += size * (number & new).bit_count()
         if at + length > end:
             break
+        if (number | number >> 1) & low == every and 2 * (number & low).bit_count() > len(header.sensors):
+            dumps.append(len(starts))
         starts.append(at + 1 + width)
         states.append(state)
         at += length
     torn, error, remark = _ending(data, at, len(starts), fault)
     sound = len(starts) - torn.get(UNCONFIRMED, 0)
     table = np.frombuffer(b"".join(states[:sound]), dtype=np.uint8).reshape(sound, width)
-    return Cycles(header, data, np.array(starts[:sound], dtype=np.int64), table, torn, error, remark)
+    dump = np.isin(np.arange(sound), dumps)
+    return Cycles(header, data, np.array(starts[:sound], dtype=np.int64), table, dump, torn, error, remark)
 
 
 CUT = "cycle cut short"

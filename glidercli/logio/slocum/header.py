@@ -134,12 +134,16 @@ def sensor_list(path: Path, text: bytes) -> tuple[tuple[Sensor, ...], int]:
     for number, line in enumerate(lines):
         words = line.split()
         if len(words) != 7 or words[0] != "s:" or words[1] not in "TF":
-            raise InputError(path, f"sensor list, line {number + 1}: {line[:60]!r} is not s: T index place bytes name unit")
+            raise InputError(
+                path, f"sensor list, line {number + 1}: {line[:60]!r} is not s: T index place bytes name unit"
+            )
         if words[1] == "F":
             continue
         if not words[3].isdigit() or words[4] not in [str(size) for size in SIZES]:
-            raise InputError(path, f"sensor list, line {number + 1}: {words[5]} has place {words[3]} and {words[4]} bytes; "
-                                   "a place from 0 and 1, 2, 4 or 8 bytes are allowed")  # fmt: skip
+            what = f"{words[5]} has place {words[3]} and {words[4]} bytes"
+            raise InputError(
+                path, f"sensor list, line {number + 1}: {what}; a place from 0, 1, 2, 4 or 8 bytes are allowed"
+            )
         placed[int(words[3])] = Sensor(words[5], words[6], int(words[4]))
     if sorted(placed) != list(range(sum(line.startswith("s: T") for line in lines))):
         raise InputError(path, "sensor list: the places of its sensors are not 0, 1, 2 ... each once")

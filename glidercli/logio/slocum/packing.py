@@ -26,7 +26,8 @@ def unpacked(data: bytes) -> tuple[bytes, int | None]:
     """The bytes of a compressed file as far as they go, and where a damaged or cut block begins, or None."""
     import lz4.block
 
-    pieces, at = [], 0
+    pieces: list[bytes] = []
+    at = 0
     while at < len(data):
         size = int.from_bytes(data[at : at + 2], "big")
         block = data[at + 2 : at + 2 + size]

@@ -15,10 +15,10 @@ from glidercli.logio.slocum.cycles import Cycles, scan
 from glidercli.logio.slocum.header import header_of
 from glidercli.logio.slocum.packing import LABEL, is_packed, unpacked
 
-__all__ = ["CLOCKS", "cycles_of", "sensors"]
+__all__ = ["clock_of", "cycles_of", "sensors"]
 
 CLOCKS = ("m_present_time", "sci_m_present_time")
-"""Sensors that tell a cycle's time, s since 1970: the navigation's, the science computer's. The first in a file counts."""
+"""Sensors that tell a cycle's time, s since 1970: the navigation's, the science computer's; the first that is there."""
 
 
 def cycles_of(path: Path, cache: Path | None = None) -> tuple[Cycles, str | None]:
@@ -30,6 +30,15 @@ def cycles_of(path: Path, cache: Path | None = None) -> tuple[Cycles, str | None
             damage = f"compressed data cut short or damaged at byte {at} of the file: only what stands before was read"
     header = header_of(path, data, lambda crc: cached_list(path, crc, cache))
     return scan(header, data), damage
+
+
+def clock_of(path: Path, cycles: Cycles) -> NDArray[np.float64]:
+    """The time of each cycle, (n,), s since 1970; NaN where it is none. Raises InputError where no sensor tells it."""
+    names = [sensor.name for sensor in cycles.header.sensors]
+    clock = next((name for name in CLOCKS if name in names), None)
+    if clock is None:
+        raise InputError(path, f"none of its {len(names)} sensors tells the time; {' or '.join(CLOCKS)} is needed")
+    return cycles.samples(names.index(clock)).values
 
 
 def sensors(
@@ -46,10 +55,10 @@ def sensors(
     cycles, _ = cycles_of(path, None if cache is None else Path(cache))
     places = {sensor.name: place for place, sensor in enumerate(cycles.header.sensors)}
     wanted = list(places if names is None else names)
-    for name in (*wanted, *CLOCKS[: not set(CLOCKS) & places.keys()]):
+    for name in wanted:
         if name not in places:
             raise InputError(path, f"has no sensor {name}; it has {len(places)}, such as {', '.join(list(places)[:3])}")
-    time_s = cycles.samples(next(places[name] for name in CLOCKS if name in places)).values
+    time_s = clock_of(path, cycles)
     found = {}
     for name in wanted:
         state, values = cycles.samples(places[name])
