@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from glidercli.errors import InputError
-from glidercli.logio.slocum.header import checksum
 from glidercli.logio.slocum.packing import is_packed, unpacked
+from glidercli.logio.slocum.sensor_lists import checksum
 
 __all__ = ["cached_list"]
 

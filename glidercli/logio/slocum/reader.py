@@ -56,7 +56,7 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
             path, f"header: filename_extension is {tags['filename_extension']}; {', '.join(KINDS)} are read"
         )
     dropped = Counter(cycles.torn)
-    seconds = clock_of(path, cycles)
+    seconds = next(cycles.samples([clock_of(path, cycles)])).values
     first = np.arange(len(cycles)) == 0
     unset = ~first & (seconds < BORN)
     for reason, which in ((FIRST, first), (UNSET, unset)):
@@ -101,11 +101,10 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
 
 def _columns(cycles: Cycles) -> tuple[dict[str, Column], int]:
     """The sensors that a log needs, of those that the file has, and how many unchanged values of dumps are left out."""
+    places = {name: place for name, place in cycles.header.listed.places.items() if name in USED}
     columns, repeated = {}, 0
-    for place, sensor in enumerate(cycles.header.sensors):
-        if sensor.name in USED:
-            state, values = cycles.samples(place)
-            old = (state == 1) & cycles.dump
-            columns[sensor.name] = Column(np.where((state > 0) & ~old, values, np.nan), state == 2, values)
-            repeated += int(old.sum())
+    for name, (state, values) in zip(places, cycles.samples(places.values()), strict=True):
+        old = (state == 1) & cycles.dump
+        columns[name] = Column(np.where((state > 0) & ~old, values, np.nan), state == 2, values)
+        repeated += int(old.sum())
     return columns, repeated

@@ -32,13 +32,13 @@ def cycles_of(path: Path, cache: Path | None = None) -> tuple[Cycles, str | None
     return scan(header, data), damage
 
 
-def clock_of(path: Path, cycles: Cycles) -> NDArray[np.float64]:
-    """The time of each cycle, (n,), s since 1970; NaN where it is none. Raises InputError where no sensor tells it."""
-    names = [sensor.name for sensor in cycles.header.sensors]
-    clock = next((name for name in CLOCKS if name in names), None)
+def clock_of(path: Path, cycles: Cycles) -> int:
+    """The place in a cycle of the sensor that tells its time, s since 1970. Raises InputError where there is none."""
+    places = cycles.header.listed.places
+    clock = next((places[name] for name in CLOCKS if name in places), None)
     if clock is None:
-        raise InputError(path, f"none of its {len(names)} sensors tells the time; {' or '.join(CLOCKS)} is needed")
-    return cycles.samples(names.index(clock)).values
+        raise InputError(path, f"none of its {len(places)} sensors tells the time; {' or '.join(CLOCKS)} is needed")
+    return clock
 
 
 def sensors(
@@ -53,16 +53,15 @@ def sensors(
     """
     path = Path(path)
     cycles, _ = cycles_of(path, None if cache is None else Path(cache))
-    places = {sensor.name: place for place, sensor in enumerate(cycles.header.sensors)}
+    places = cycles.header.listed.places
     wanted = list(places if names is None else names)
     for name in wanted:
         if name not in places:
             raise InputError(path, f"has no sensor {name}; it has {len(places)}, such as {', '.join(list(places)[:3])}")
-    time_s = clock_of(path, cycles)
+    clock, *told = cycles.samples([clock_of(path, cycles), *(places[name] for name in wanted)])
     found = {}
-    for name in wanted:
-        state, values = cycles.samples(places[name])
-        told = (state > 0) & ~np.isnan(values)
-        told[:1] = False
-        found[name] = time_s[told], values[told]
+    for name, (state, values) in zip(wanted, told, strict=True):
+        sampled = (state > 0) & ~np.isnan(values)
+        sampled[:1] = False
+        found[name] = clock.values[sampled], values[sampled]
     return found
