@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from glidercli.errors import InputError
@@ -16,8 +17,8 @@ ENDINGS = (".cac", ".ccc")
 def cached_list(path: Path, crc: str, folder: Path | None) -> bytes:
     """The lines of a factored sensor list.
 
-    Sought in the folder of ``path``, then in ``cache`` beside it, then in ``folder``; capitals do not matter, nor what
-    a name has after the checksum's eight digits but the ending. Raises InputError naming what is wanted.
+    Sought in the folder of ``path``, then in ``cache`` beside it, then in ``folder``; capitals do not matter. Raises
+    InputError naming what is wanted and where it was sought, or what is wrong with what was found.
     """
     if len(crc) != 8 or not set(crc) <= set("0123456789abcdef"):
         raise InputError(path, f"header: sensor_list_crc is {crc!r}; 8 hexadecimal digits are needed")
@@ -25,9 +26,8 @@ def cached_list(path: Path, crc: str, folder: Path | None) -> bytes:
     wrong = []
     places = [path.parent, path.parent / "cache", *([folder] if folder is not None else [])]
     for place in places:
-        for file in sorted(place.iterdir()) if place.is_dir() else []:
-            if file.name.lower() not in wanted or not file.is_file():
-                continue
+        for name in sorted(name for name in os.listdir(place) if name.lower() in wanted) if place.is_dir() else []:
+            file = place / name
             text, damaged = file.read_bytes(), None
             if is_packed(text[:16], b"s:"):
                 text, damaged = unpacked(text)

@@ -14,7 +14,8 @@ Signs and units as brought to channels.py, and what shows them (comet 2016 and 2
                       and held at 0.20 rad it turns the heading clockwise (the spiral).
     m_ballast_pumped  cc, floating positive (-231 on dives, +231 on climbs); m_de_oil_vol the same in deep gliders.
     sci_water_*       degC, S/m, bar of sea pressure (0.01 bar at the surface).
-    m_gps_lat, _lon   ddmm.mmm, 69696969 for none. m_lat and m_lon are the glider's dead reckoning, and no fixes.
+    m_gps_lat, _lon   ddmm.mmm; 69696969 or 69697000 for none, which is no place. m_lat and m_lon are the glider's
+                      dead reckoning, and no fixes.
     m_battroll        not used: no file at hand has it moved, so that nothing shows its sign.
 """
 
@@ -36,12 +37,13 @@ __all__ = ["RELAYED", "USED", "Column", "channels_of"]
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
 
-HALF_TURN = math.pi
+QUARTER, HALF, WHOLE = 1.5708, 3.1416, 6.2832
+"""rad; parts of a turn, rounded up as numbers of 4 bytes are."""
 SENSORS = {
     "m_depth": Quantity("depth", 1.0, -5.0, 1500.0, "m"),
-    "m_pitch": Quantity("pitch", 1.0, -HALF_TURN / 2.0, HALF_TURN / 2.0, "rad"),
-    "m_roll": Quantity("roll", 1.0, -HALF_TURN, HALF_TURN, "rad"),
-    "m_heading": Quantity("heading", 1.0, 0.0, 2.0 * HALF_TURN, "rad"),
+    "m_pitch": Quantity("pitch", 1.0, -QUARTER, QUARTER, "rad"),
+    "m_roll": Quantity("roll", 1.0, -HALF, HALF, "rad"),
+    "m_heading": Quantity("heading", 1.0, 0.0, WHOLE, "rad"),
     "m_battpos": Quantity("mass_position", INCH, -5.0, 5.0, "in"),
     "m_ballast_pumped": Quantity("ballast_volume", CM3, -1000.0, 1000.0, "cc"),
     "m_de_oil_vol": Quantity("ballast_volume", CM3, -1000.0, 1000.0, "cc"),
@@ -59,8 +61,6 @@ LATITUDE, LONGITUDE, STATUS, VARIATION, ROLLER = (
 CURRENT = ("m_water_vx", "m_water_vy")
 USED = (*SENSORS, LATITUDE, LONGITUDE, STATUS, VARIATION, ROLLER, *CURRENT)
 """Sensors that are decoded for a log."""
-NO_FIX = 69696969.0
-"""What a position holds before the first fix; as a 4-byte number it is 69696968, 69697000 has been seen too."""
 NOTES = {
     "mass_position": {"mass_position_zero": "the actuator's own zero (m_battpos), not the model's"},
     "rudder_angle": {"rudder_note": "m_fin as recorded: the yaw rate follows it with the same sign"},
@@ -70,8 +70,8 @@ NOTES = {
 class Column(NamedTuple):
     """A sensor in the records of a file, (n,) each.
 
-    sampled : the values, NaN in records without a sample. fresh : whether the sample is a new value. latest : the last
-    value known in each record, from before the file if need be.
+    sampled : the values, NaN in records without a sample, infinite where a sample is no number. fresh : whether the
+    sample is a new value. latest : the last value known in each record, from before the file if need be.
     """
 
     sampled: Array
@@ -125,17 +125,13 @@ def _without_idle_ctd(used: dict[str, Array], warnings: list[str]) -> None:
 
 def _true(heading: Channel, time_ns: Times, variation: Column | None, warnings: list[str]) -> tuple[Channel, str]:
     """Heading from true north, in 0 to 360 deg, and what was done."""
-    at = np.searchsorted(time_ns, heading.time_ns)
-    turn = np.full(len(heading), np.nan) if variation is None else variation.latest[at]
-    known = np.isfinite(turn) & (np.abs(turn) <= HALF_TURN)
-    if not known.all():
-        warnings.append(
-            f"m_heading: {int((~known).sum())} values are from magnetic north, the file tells no {VARIATION}"
-        )
-    if not known.any():
-        return heading, f"m_heading as recorded, from magnetic north: the file tells no {VARIATION}"
-    turned = (heading.values - np.where(known, turn, 0.0)) % (2.0 * HALF_TURN)
-    low, high = (f"{math.degrees(value):.1f}" for value in (turn[known].min(), turn[known].max()))
+    turn = np.full(len(time_ns), np.nan) if variation is None else variation.latest
+    turn = turn[np.searchsorted(time_ns, heading.time_ns)]
+    if not (np.abs(turn) <= HALF).all():
+        warnings.append(f"m_heading: {len(heading)} values stay from magnetic north, the file tells no {VARIATION}")
+        return heading, f"from magnetic north, m_heading as recorded: the file tells no {VARIATION}"
+    turned = (heading.values - turn) % (2.0 * math.pi)
+    low, high = (f"{math.degrees(value):.1f}" for value in (turn.min(), turn.max()))
     told = low if low == high else f"{low} to {high}"
     note = (
         f"from true north: m_heading, from magnetic north, less {VARIATION} ({told} deg, negative where magnetic north "
@@ -149,7 +145,7 @@ def _fixes(time_ns: Times, columns: Mapping[str, Column], warnings: list[str]) -
     so (m_gps_status 0)."""
     place = [columns[name] for name in (LATITUDE, LONGITUDE)]
     latitude, longitude = (_degrees(column.sampled) for column in place)
-    told = np.isfinite(place[0].sampled) | np.isfinite(place[1].sampled)
+    told = ~np.isnan(place[0].sampled) | ~np.isnan(place[1].sampled)
     fix = (np.abs(latitude) <= 90.0) & (np.abs(longitude) <= 180.0) & ((latitude != 0.0) | (longitude != 0.0))
     fix &= place[0].fresh | place[1].fresh
     if STATUS in columns:
@@ -161,7 +157,8 @@ def _fixes(time_ns: Times, columns: Mapping[str, Column], warnings: list[str]) -
 
 
 def _degrees(value: Array) -> Array:
-    """Degrees from ddmm.mmm, signed; NaN where the minutes are 60 or more."""
+    """Degrees from ddmm.mmm, signed; NaN where the minutes are 60 or more, or the value is no number."""
+    value = np.where(np.isfinite(value), value, np.nan)
     whole = np.floor(np.abs(value) / 100.0)
     minutes = np.abs(value) - 100.0 * whole
     return np.where(minutes < 60.0, np.sign(value) * (whole + minutes / 60.0), np.nan)

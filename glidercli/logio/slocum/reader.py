@@ -105,6 +105,7 @@ def _columns(cycles: Cycles) -> tuple[dict[str, Column], int]:
     columns, repeated = {}, 0
     for name, (state, values) in zip(places, cycles.samples(places.values()), strict=True):
         old = (state == 1) & cycles.dump
-        columns[name] = Column(np.where((state > 0) & ~old, values, np.nan), state == 2, values)
+        told = np.where(np.isnan(values), np.inf, values)
+        columns[name] = Column(np.where((state > 0) & ~old, told, np.nan), state == 2, values)
         repeated += int(old.sum())
     return columns, repeated
