@@ -1,13 +1,14 @@
 """Which channels do the sensors of a Slocum hold? Units, signs, and which samples are left out, and why.
 
-Signs and units as brought to channels.py, and what shows them (comet 2016 and 2019, modena 2015):
+Signs and units, and what shows them (comet 2016 and 2019, modena 2015):
 
     m_heading         rad from magnetic north. In the glider's local coordinates its own speed through water points
                       along it (in 2015 and 2019, when it knew no current, m_vx_lmc and m_vy_lmc to within 1e-5 deg),
                       and these coordinates it turns from its map's north by exactly m_gps_mag_var (x_utm_to_lmc_*:
                       -1.0, -3.9, -0.1 deg), negative where magnetic north lies east of true north.
                       So heading = m_heading - m_gps_mag_var, where a file has that.
-    m_pitch, m_roll   rad, nose up and starboard down positive.
+                      (So also the makers: magnetic heading = true heading + variation, west positive.)
+    m_pitch, m_roll   rad, nose up and port wing up (starboard down) positive, by the makers' list of sensors.
     m_battpos         inch, forward positive: the depth rate follows it (correlation 0.96 to 0.98 in the comet). Its own
                       zero is kept.
     m_fin             rad, to starboard positive: the yaw rate follows it in sawtooth flight (correlation 0.48 to 0.80),
