@@ -104,5 +104,5 @@ def _tags(path: Path, data: bytes) -> tuple[dict[str, str], int]:
 def _count(path: Path, tags: dict[str, str], key: str) -> int:
     text = tags[key]
     if not (text.isascii() and text.isdigit() and len(text) < 10 and int(text) > 0):
-        raise InputError(path, f"header: {key} is {text!r}; a whole number from 1 is needed")
+        raise InputError(path, f"header: {key} is {text!r}; a whole number from 1 to 999999999 is needed")
     return int(text)
