@@ -168,7 +168,7 @@ def test_faults_of_the_head_are_named(tmp_path: Path, tags: dict[str, object], w
     ("old", "new", "words"),
     [
         (b" 4 m_depth", b" 3 m_depth", "line 2 is 's: T    1    1 3 m_depth m'"),
-        (b"   2 4 m_pitch", b"   1 4 m_pitch", "places of its sensors are not 0, 1, 2 ... each once"),
+        (b"   2 4 m_pitch", b"   1 4 m_pitch", "places of its sensors are not 0, 1, 2 ... in order"),
         (b" m\n", b"\n", "line 2 is 's: T    1    1 4 m_depth'"),
     ],
 )

@@ -29,19 +29,25 @@ PADDING = b"\x00\x1a\r\n"
 CUT = "cycle cut short"
 DAMAGED = "cycle damaged"
 UNCONFIRMED = "cycle before a damage: where it ends is not confirmed"
-SHIFTS = np.array([6, 4, 2, 0])
-NEW = ((np.arange(256)[None, :] >> SHIFTS[:, None]) & 3 == 2).astype(np.int64)
-"""Whether a slot of a state byte says new value, (4, 256)."""
+SHIFTS = [np.uint8(shift) for shift in (6, 4, 2, 0)]
+BEFORE = np.array([np.nan])
+"""The value of a sensor that none has been told of."""
 
 
 class Samples(NamedTuple):
-    """A sensor in every cycle, (n,) each.
+    """The cycles that tell of a sensor, (k,) each.
 
-    state : 0 not updated, 1 updated with the same value, 2 with a new one. values : the latest; NaN before the first.
+    rows : their numbers, increasing. new : whether the value is a new one, or else the same as before. values : NaN
+    where none is known yet.
     """
 
-    state: NDArray[np.uint8]
+    rows: NDArray[np.intp]
+    new: NDArray[np.bool_]
     values: NDArray[np.float64]
+
+    def latest(self, count: int) -> NDArray[np.float64]:
+        """The last value known in each of ``count`` cycles, (count,); NaN before the first."""
+        return np.concatenate([BEFORE, self.values])[np.searchsorted(self.rows, np.arange(count), side="right")]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -79,42 +85,45 @@ class Cycles:
         kind = np.dtype(f"{self.header.order}{'f' if size in FLOATING else 'i'}{size}")
         return np.ndarray((len(self.data) - size + 1,), kind, self.data, strides=(1,))
 
+    @functools.cached_property
+    def _used(self) -> NDArray[np.bool_]:
+        """Whether any cycle but the first tells of the sensors of a state byte, (state bytes,)."""
+        return np.asarray(np.bitwise_or.reduce(self._states[1:], axis=0) != 0)
+
     def samples(self, places: Iterable[int]) -> Iterator[Samples]:
         """The sensors at these places of a cycle, one after the other."""
-        wanted = list(places)
-        starts = self._starts({place // 4 for place in wanted}) if len(self) else {}
+        wanted, listed = list(places), self.header.listed
+        starts = self._starts(max(wanted, default=-1) // 4 + 1, {place // 4 for place in wanted})
+        numbers = {size: self._numbers(size) for size in (1, 2, 4, 8)}
         for place in wanted:
             byte, slot = divmod(place, 4)
-            column = np.ascontiguousarray(self._states[:, byte])
-            state = (column >> SHIFTS[slot].astype(np.uint8)) & 3
-            new = state == 2
-            values = np.full(len(self), np.nan)
-            if new.any():
-                listed = self.header.listed
-                ahead = listed.sizes[byte, :slot] @ NEW[:slot]
-                at = (starts[byte] + ahead[column])[new]
-                told = self._numbers(listed.sensors[place].size)[at].astype(np.float64)
-                latest = np.cumsum(new) - 1
-                values = np.where(latest >= 0, told[latest], np.nan)
-            yield Samples(state, values)
+            told = self._states[: len(starts[byte]), byte]
+            state = (told >> SHIFTS[slot]) & 3
+            rows = state.nonzero()[0]
+            new = state[rows] == 2
+            at = rows[new]
+            number = numbers[listed.sizes[place]]
+            values = np.concatenate([BEFORE, number[starts[byte][at] + listed.ahead(place)[told[at]]]])
+            yield Samples(rows, new, values[new.cumsum()])
 
-    def _starts(self, wanted: set[int]) -> dict[int, NDArray[np.int64]]:
-        """Where the values begin that a state byte tells of, (n,), by state byte.
+    def _starts(self, width: int, wanted: set[int]) -> dict[int, NDArray[np.int64]]:
+        """Where the values begin that a state byte tells of, by state byte, of the first ``width``.
 
-        The first cycle tells every sensor, the others few: only state bytes that any of them uses are gone through.
+        In each cycle, (n,), or in the first alone, (1,), where no other tells of its sensors; so it is for most.
         """
-        sizes, states = self.header.listed.sizes, self._states[:, : max(wanted, default=0) + 1]
-        first = ((states[0][:, None] >> SHIFTS) & 3 == 2) * sizes[: states.shape[1]]
-        start = self.begins + sizes.shape[0]
-        before = start[0] + np.concatenate([[0], first.sum(axis=1).cumsum()])
-        used = np.bitwise_or.reduce(states[1:], axis=0) != 0
+        if not len(self):
+            return dict.fromkeys(wanted, self.begins)
+        listed, states = self.header.listed, self._states[:, :width]
+        lengths = listed.lengths[np.arange(width), states[0]]
+        before = self.begins[0] + listed.state_bytes + np.cumsum(lengths) - lengths
+        start = self.begins + listed.state_bytes
         found = {}
-        for byte in np.flatnonzero(used | np.isin(np.arange(states.shape[1]), list(wanted))).tolist():
-            start[0] = before[byte]
+        for byte, used in enumerate(self._used[:width].tolist()):
             if byte in wanted:
-                found[byte] = start.copy()
-            if used[byte]:
-                start += (sizes[byte] @ NEW)[states[:, byte]]
+                start[0] = before[byte]
+                found[byte] = start.copy() if used else start[:1].copy()
+            if used:
+                start += listed.lengths[byte][states[:, byte]]
         return found
 
 
@@ -150,7 +159,7 @@ def scan(header: Header, data: bytes) -> Cycles:
 
 def _length(header: Header, state: bytes) -> tuple[int, bool]:
     """Bytes of a cycle by its states, 0 where they cannot be, and whether it is a dump (see Cycles)."""
-    count = len(header.listed.sensors)
+    count = len(header.listed)
     number = int.from_bytes(state, "big")
     slots = int.from_bytes(b"\x55" * len(state), "big")  # the low bit of every slot
     spare = 8 * len(state) - 2 * count

@@ -69,8 +69,8 @@ def header_of(path: Path, data: bytes, cache: Callable[[str], bytes]) -> Header:
         listed = sensor_list(text)
     except ValueError as error:
         raise InputError(path, f"sensor list: {error}") from None
-    if len(listed.sensors) != used or listed.listed not in (total, used):
-        what = f"{len(listed.sensors)} of {listed.listed} sensors are listed as in the cycles"
+    if len(listed) != used or listed.listed not in (total, used):
+        what = f"{len(listed)} of {listed.listed} sensors are listed as in the cycles"
         raise InputError(path, f"header: {what}; sensors_per_cycle is {used}, total_num_sensors {total}")
     for order, known in KNOWN.items():
         if data.startswith(known, at):

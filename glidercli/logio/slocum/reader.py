@@ -21,7 +21,7 @@ from glidercli.logio.report import FileReport
 from glidercli.logio.slocum.channels import RELAYED, USED, Column, channels_of
 from glidercli.logio.slocum.cycles import Cycles
 from glidercli.logio.slocum.packing import LABEL, is_packed
-from glidercli.logio.slocum.sensors import clock_of, cycles_of
+from glidercli.logio.slocum.sensors import cycles_of, times_of
 
 __all__ = ["is_slocum", "read_slocum"]
 
@@ -56,7 +56,7 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
             path, f"header: filename_extension is {tags['filename_extension']}; {', '.join(KINDS)} are read"
         )
     dropped = Counter(cycles.torn)
-    seconds = next(cycles.samples([clock_of(path, cycles)])).values
+    seconds = times_of(path, cycles)
     first = np.arange(len(cycles)) == 0
     unset = ~first & (seconds < BORN)
     for reason, which in ((FIRST, first), (UNSET, unset)):
@@ -103,9 +103,12 @@ def _columns(cycles: Cycles) -> tuple[dict[str, Column], int]:
     """The sensors that a log needs, of those that the file has, and how many unchanged values of dumps are left out."""
     places = {name: place for name, place in cycles.header.listed.places.items() if name in USED}
     columns, repeated = {}, 0
-    for name, (state, values) in zip(places, cycles.samples(places.values()), strict=True):
-        old = (state == 1) & cycles.dump
-        told = np.where(np.isnan(values), np.inf, values)
-        columns[name] = Column(np.where((state > 0) & ~old, told, np.nan), state == 2, values)
-        repeated += int(old.sum())
+    for name, samples in zip(places, cycles.samples(places.values()), strict=True):
+        rows, new, values = samples
+        good = new | ~cycles.dump[rows]
+        repeated += int((~good).sum())
+        sampled, fresh = np.full(len(cycles), np.nan), np.zeros(len(cycles), dtype=bool)
+        sampled[rows[good]] = np.where(np.isnan(values), np.inf, values)[good]
+        fresh[rows[new]] = True
+        columns[name] = Column(sampled, fresh, samples.latest(len(cycles)))
     return columns, repeated

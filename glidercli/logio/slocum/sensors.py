@@ -15,7 +15,7 @@ from glidercli.logio.slocum.cycles import Cycles, scan
 from glidercli.logio.slocum.header import header_of
 from glidercli.logio.slocum.packing import LABEL, is_packed, unpacked
 
-__all__ = ["clock_of", "cycles_of", "sensors"]
+__all__ = ["cycles_of", "sensors", "times_of"]
 
 CLOCKS = ("m_present_time", "sci_m_present_time")
 """Sensors that tell a cycle's time, s since 1970: the navigation's, the science computer's; the first that is there."""
@@ -32,13 +32,13 @@ def cycles_of(path: Path, cache: Path | None = None) -> tuple[Cycles, str | None
     return scan(header, data), damage
 
 
-def clock_of(path: Path, cycles: Cycles) -> int:
-    """The place in a cycle of the sensor that tells its time, s since 1970. Raises InputError where there is none."""
+def times_of(path: Path, cycles: Cycles) -> NDArray[np.float64]:
+    """The time of each cycle, (n,), s since 1970; NaN where none is known. Raises InputError where none can be."""
     places = cycles.header.listed.places
     clock = next((places[name] for name in CLOCKS if name in places), None)
     if clock is None:
         raise InputError(path, f"none of its {len(places)} sensors tells the time; {' or '.join(CLOCKS)} is needed")
-    return clock
+    return next(cycles.samples([clock])).latest(len(cycles))
 
 
 def sensors(
@@ -58,10 +58,10 @@ def sensors(
     for name in wanted:
         if name not in places:
             raise InputError(path, f"has no sensor {name}; it has {len(places)}, such as {', '.join(list(places)[:3])}")
-    clock, *told = cycles.samples([clock_of(path, cycles), *(places[name] for name in wanted)])
+    time_s = times_of(path, cycles)
+    told = cycles.samples(places[name] for name in wanted)
     found = {}
-    for name, (state, values) in zip(wanted, told, strict=True):
-        sampled = (state > 0) & ~np.isnan(values)
-        sampled[:1] = False
-        found[name] = clock.values[sampled], values[sampled]
+    for name, (rows, _, values) in zip(wanted, told, strict=True):
+        good = (rows > 0) & ~np.isnan(values)
+        found[name] = time_s[rows[good]], values[good]
     return found
