@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import resource
 import shutil
+import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 from conftest import ROOT, Run, one_line_error
-from slocum_files import NAVIGATION, SAME, SCIENCE, Cycle, cast, dive, made, packed, sensor_lines
+from slocum_files import NAVIGATION, SAME, SCIENCE, START, Cycle, cast, dive, made, packed, sensor_lines
 
 from glidercli.errors import InputError
 from glidercli.log import Log
@@ -80,8 +81,50 @@ def test_a_tag_or_a_state_overwritten_anywhere_is_told_with_its_place(tmp_path: 
             report = (part := read_slocum(written(path, bytes(data)))).report
             assert report.error is not None
             assert f"damaged at byte {begin}, after {number} cycles" in report.error
-            assert report.records == number + 1 == report.kept + sum(count for _, count in report.dropped)
+            assert report.records == report.kept + sum(count for _, count in report.dropped)
             assert inside(part.log, whole)
+            if number < 7:  # behind it stand five cycles or more, which show where to go on
+                assert (
+                    f"read again from byte {WHOLE.cycles[number + 2]}, {10 - number} cycles to the end" in report.error
+                )
+                assert report.records == 12
+                assert report.kept == 11 - {0: 1, 1: 2}.get(number, 3)  # itself, the one before and the one behind
+                assert "latitude" in part.log or number in (1, 2, 3)
+            else:
+                assert "nothing more is read" in report.error
+                assert (report.records, report.kept) == (number + 1, number - 2)
+
+
+def test_what_is_unchanged_since_before_a_damage_is_not_known(tmp_path: Path) -> None:
+    cycles = [{**cycle, "m_pitch": -0.3 if i == 0 else SAME if i != 8 else -0.5} for i, cycle in enumerate(dive())]
+    file = made(NAVIGATION, cycles)
+    data = bytearray(file.data)
+    data[file.cycles[4]] = 0
+    part = read_slocum(written(tmp_path / "a.dbd", bytes(data)))
+    pitch = part.log["pitch"]
+    # cycles 3, 4 and 5 are lost, 6 and 7 tell of no change, 8 is new; depth is told in all
+    assert ((pitch.time_ns * 1e-9 - START) / 4.0).round().tolist() == [1, 2, 8, 9, 10, 11]
+    assert pitch.values.round(3).tolist() == [-0.3, -0.3, -0.5, -0.5, -0.5, -0.5]
+    assert len(part.log["depth"]) == 8
+    assert len(sensors(tmp_path / "a.dbd", ["m_pitch"])["m_pitch"][0]) == 6
+
+
+def test_behind_two_damages_nothing_shows_where_to_go_on(tmp_path: Path) -> None:
+    file = made(NAVIGATION, dive(40))
+    data = bytearray(file.data)
+    data[file.cycles[5]] = data[file.cycles[38]] = 0
+    report = read_slocum(written(tmp_path / "a.dbd", bytes(data))).report
+    assert report.error is not None
+    assert "damaged at byte" in report.error
+    assert "nothing more is read" in report.error
+    assert report.kept == 3
+
+
+def test_a_long_file_of_the_letter_d_makes_no_long_search(tmp_path: Path) -> None:
+    began = time.perf_counter()
+    report = read_slocum(written(tmp_path / "a.dbd", WHOLE.data[:-1] + b"\x00" + b"d" * 5_000_000)).report
+    assert report.error is not None
+    assert time.perf_counter() - began < 30.0  # 1 MB is searched, some us each
 
 
 def test_states_that_stay_possible_move_the_next_cycle_and_take_theirs_with_them(tmp_path: Path) -> None:
@@ -101,9 +144,11 @@ def test_a_piece_overwritten_in_a_real_file_is_noticed(tmp_path: Path, name: str
     for cache in DATA.glob("*.cac"):
         shutil.copy(cache, tmp_path)
     path = tmp_path / name
-    whole = read_slocum(written(path, source)).log
+    part = read_slocum(written(path, source))
+    whole, whole_kept = part.log, part.report.kept
     rng = np.random.default_rng(7)
     begin = source.index(b"sa\x124") + 16 + 12000  # after the first cycle, which holds 7 kB of values and no more
+    kept = []
     for at in rng.integers(begin, len(source) - 3000, 100):
         data = bytearray(source)
         data[at : at + 3000] = rng.bytes(3000)  # more than a cycle, so that one's tag or states are hit
@@ -111,6 +156,9 @@ def test_a_piece_overwritten_in_a_real_file_is_noticed(tmp_path: Path, name: str
         assert part.report.error is not None
         assert part.report.error.startswith("damaged at byte ")
         assert inside(part.log, whole)
+        kept.append(part.report.kept)
+    # 3000 bytes are lost and a cycle on either side, of 800 bytes in the one file, of 60 in the other
+    assert np.median(kept) > 0.93 * whole_kept
 
 
 @pytest.mark.parametrize("rest", [b"d", b"more", b"X" * 40])

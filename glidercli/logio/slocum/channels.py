@@ -72,7 +72,7 @@ class Column(NamedTuple):
     """A sensor in the records of a file, (n,) each.
 
     sampled : the values, NaN in records without a sample, infinite where a sample is no number. fresh : whether the
-    sample is a new value. latest : the last value known in each record, from before the file if need be.
+    sample is a new value. latest : the last number known in each record, from before the file if need be.
     """
 
     sampled: Array
@@ -150,7 +150,7 @@ def _fixes(time_ns: Times, columns: Mapping[str, Column], warnings: list[str]) -
     fix = (np.abs(latitude) <= 90.0) & (np.abs(longitude) <= 180.0) & ((latitude != 0.0) | (longitude != 0.0))
     fix &= place[0].fresh | place[1].fresh
     if STATUS in columns:
-        fix &= columns[STATUS].latest == 0.0
+        fix &= (columns[STATUS].latest == 0.0) & ~np.isinf(columns[STATUS].sampled)
     others = int((told & ~fix).sum())
     if others:
         warnings.append(f"m_gps_lat, m_gps_lon: {others} values left out that are no new fix, {int(fix.sum())} kept")

@@ -3,7 +3,7 @@
 A record is one data cycle. The first cycle of a file tells every sensor's last value, however old, and is dropped; so
 is, by a named reason, each cycle that cannot be used: damaged ones, and those whose times cannot be read, repeat, go
 back or come from a clock that was not set. Single samples that cannot be used are counted in warnings (channels.py,
-where units and signs stand too).
+where units and signs stand too). Cycles in a damaged stretch cannot be counted: it is one record (scanning.py).
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
         )
     dropped = Counter(cycles.torn)
     seconds = times_of(path, cycles)
-    first = np.arange(len(cycles)) == 0
+    first = np.arange(len(cycles)) < cycles.stale
     unset = ~first & (seconds < BORN)
     for reason, which in ((FIRST, first), (UNSET, unset)):
         if which.any():
@@ -67,9 +67,8 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
     time_ns = np.where(known, np.rint(np.where(known, seconds, 0.0) * 1e9), NO_TIME).astype(np.int64)
     columns, repeated = _columns(cycles)
     good[good] = usable(time_ns[good], {name: c.sampled[good] for name, c in columns.items()}, dropped)
-    channels, notes, warnings = channels_of(
-        time_ns[good], {n: Column(*(f[good] for f in c)) for n, c in columns.items()}
-    )
+    kept_columns = {name: Column(c.sampled[good], c.fresh[good], c.latest[good]) for name, c in columns.items()}
+    channels, notes, warnings = channels_of(time_ns[good], kept_columns)
     kept = np.isin(time_ns[good], np.concatenate([c.time_ns for c in channels] or [time_ns[:0]]))
     if not kept.all():
         dropped["no usable value"] += int((~kept).sum())

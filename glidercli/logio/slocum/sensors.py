@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from glidercli.errors import InputError
 from glidercli.files import readable_file
 from glidercli.logio.slocum.caches import cached_list
-from glidercli.logio.slocum.cycles import Cycles, scan
+from glidercli.logio.slocum.cycles import Cycles
 from glidercli.logio.slocum.header import header_of
 from glidercli.logio.slocum.packing import LABEL, is_packed, unpacked
+from glidercli.logio.slocum.scanning import scan
 
 __all__ = ["cycles_of", "sensors", "times_of"]
 
@@ -38,7 +39,10 @@ def times_of(path: Path, cycles: Cycles) -> NDArray[np.float64]:
     clock = next((places[name] for name in CLOCKS if name in places), None)
     if clock is None:
         raise InputError(path, f"none of its {len(places)} sensors tells the time; {' or '.join(CLOCKS)} is needed")
-    return next(cycles.samples([clock])).latest(len(cycles))
+    rows, _, values = next(cycles.samples([clock]))
+    time_s = np.full(len(cycles), np.nan)
+    time_s[rows] = values
+    return time_s
 
 
 def sensors(
@@ -62,6 +66,6 @@ def sensors(
     told = cycles.samples(places[name] for name in wanted)
     found = {}
     for name, (rows, _, values) in zip(wanted, told, strict=True):
-        good = (rows > 0) & ~np.isnan(values)
+        good = (rows >= cycles.stale) & ~np.isnan(values)
         found[name] = time_s[rows[good]], values[good]
     return found
