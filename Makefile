@@ -46,6 +46,7 @@ bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/simulate.py
 	$(BIN)/python benchmarks/peers.py
 	$(BIN)/python benchmarks/agreement.py
+	$(BIN)/python benchmarks/slocum.py
 
 clean:
 	rm -rf $(VENV) $(DEMO)

@@ -11,8 +11,10 @@ import math
 DEGREE = math.pi / 180.0  # rad
 KNOT = 1852.0 / 3600.0  # m/s, international knot
 DBAR = 1.0e4  # Pa
+BAR = 1.0e5  # Pa
 CM3 = 1.0e-6  # m3
 CENTIMETRE = 1.0e-2  # m
+INCH = 2.54e-2  # m
 MILLIMETRE = 1.0e-3  # m
 MINUTE = 60.0  # s
 HOUR = 3600.0  # s

@@ -17,6 +17,7 @@ from glidercli.logio.reader import Aids, Format, Part
 from glidercli.logio.seaexplorer import is_seaexplorer, read_seaexplorer
 from glidercli.logio.seaglider import is_seaglider, read_seaglider
 from glidercli.logio.tables import ENDINGS, is_table, read_table
+from glidercli.logio.slocum import is_slocum, read_slocum
 
 __all__ = ["FORMATS", "check_format", "format_of", "read_file", "unrecognised"]
 
@@ -41,6 +42,7 @@ FORMATS: dict[str, Format] = {
     "ioos": Format(is_ioos, read_ioos),
     "seaexplorer": Format(is_seaexplorer, read_seaexplorer),
     "seaglider": Format(is_seaglider, read_seaglider),
+    "slocum": Format(is_slocum, read_slocum),
     "glider-csv": Format(is_csv, read_csv, own=True),
     "table": Format(is_table, read_table),
 }

@@ -1,0 +1,165 @@
+"""Which channels do the sensors of a Slocum hold? Units, signs, and which samples are left out, and why.
+
+Signs and units, and what shows them (comet 2016 and 2019, modena 2015):
+
+    m_heading         rad from magnetic north. In the glider's local coordinates its own speed through water points
+                      along it (in 2015 and 2019, when it knew no current, m_vx_lmc and m_vy_lmc to within 1e-5 deg),
+                      and these coordinates it turns from its map's north by exactly m_gps_mag_var (x_utm_to_lmc_*:
+                      -1.0, -3.9, -0.1 deg), negative where magnetic north lies east of true north.
+                      So heading = m_heading - m_gps_mag_var, where a file has that.
+                      (So also the makers: magnetic heading = true heading + variation, west positive.)
+    m_pitch, m_roll   rad, nose up and port wing up (starboard down) positive, by the makers' list of sensors.
+    m_battpos         inch, forward positive: the depth rate follows it (correlation 0.96 to 0.98 in the comet). Its own
+                      zero is kept.
+    m_fin             rad, to starboard positive: the yaw rate follows it in sawtooth flight (correlation 0.48 to 0.80),
+                      and held at 0.20 rad it turns the heading clockwise (the spiral).
+    m_ballast_pumped  cc, floating positive (-231 on dives, +231 on climbs); m_de_oil_vol the same in deep gliders.
+    sci_water_*       degC, S/m, bar of sea pressure (0.01 bar at the surface).
+    m_gps_lat, _lon   ddmm.mmm; 69696969 or 69697000 for none, which is no place. m_lat and m_lon are the glider's
+                      dead reckoning, and no fixes.
+    m_battroll        not used: no file at hand has it moved, so that nothing shows its sign.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glidercli.log import Channel
+from glidercli.logio.quantities import Quantity, channel_of, submerged, without_sentinels
+from glidercli.units import BAR, CM3, INCH
+
+__all__ = ["RELAYED", "USED", "Column", "channels_of"]
+
+Array = NDArray[np.float64]
+Times = NDArray[np.int64]
+
+QUARTER, HALF, WHOLE = 1.5708, 3.1416, 6.2832
+"""rad; parts of a turn, rounded up as numbers of 4 bytes are."""
+SENSORS = {
+    "m_depth": Quantity("depth", 1.0, -5.0, 1500.0, "m"),
+    "m_pitch": Quantity("pitch", 1.0, -QUARTER, QUARTER, "rad"),
+    "m_roll": Quantity("roll", 1.0, -HALF, HALF, "rad"),
+    "m_heading": Quantity("heading", 1.0, 0.0, WHOLE, "rad"),
+    "m_battpos": Quantity("mass_position", INCH, -5.0, 5.0, "in"),
+    "m_ballast_pumped": Quantity("ballast_volume", CM3, -1000.0, 1000.0, "cc"),
+    "m_de_oil_vol": Quantity("ballast_volume", CM3, -1000.0, 1000.0, "cc"),
+    "m_fin": Quantity("rudder_angle", 1.0, -0.8, 0.8, "rad"),
+    "sci_water_temp": Quantity("temperature", 1.0, -3.0, 45.0, "degC"),
+    "sci_water_cond": Quantity("conductivity", 1.0, 0.0, 7.5, "S/m"),
+    "sci_water_pressure": Quantity("pressure", BAR, -0.2, 150.0, "bar"),
+}
+CTD = ("sci_water_temp", "sci_water_cond", "sci_water_pressure")
+RELAYED = frozenset(SENSORS[name].channel for name in CTD)
+"""Channels that a navigation file has from the science computer, fewer and later than the science file's own."""
+LATITUDE, LONGITUDE, STATUS, VARIATION, ROLLER = (
+    "m_gps_lat", "m_gps_lon", "m_gps_status", "m_gps_mag_var", "m_battroll",
+)  # fmt: skip
+CURRENT = ("m_water_vx", "m_water_vy")
+USED = (*SENSORS, LATITUDE, LONGITUDE, STATUS, VARIATION, ROLLER, *CURRENT)
+"""Sensors that are decoded for a log."""
+NOTES = {
+    "mass_position": {"mass_position_zero": "the actuator's own zero (m_battpos), not the model's"},
+    "rudder_angle": {"rudder_note": "m_fin as recorded: the yaw rate follows it with the same sign"},
+}
+
+
+class Column(NamedTuple):
+    """A sensor in the records of a file, (n,) each.
+
+    sampled : the values, NaN in records without a sample, infinite where a sample is no number. fresh : whether the
+    sample is a new value. latest : the last number known in each record, from before the file if need be.
+    """
+
+    sampled: Array
+    fresh: NDArray[np.bool_]
+    latest: Array
+
+
+def channels_of(time_ns: Times, columns: Mapping[str, Column]) -> tuple[list[Channel], dict[str, str], list[str]]:
+    """The channels of the sensors of a file, what to know of them, and a warning for each kind of sample left out.
+
+    time_ns : (n,) UTC ns, strictly increasing. columns : by sensor, of those in USED that the file has.
+    """
+    warnings: list[str] = []
+    used = {name: without_sentinels(name, columns[name].sampled, (), warnings) for name in SENSORS if name in columns}
+    _without_idle_ctd(used, warnings)
+    found: dict[str, Channel] = {}
+    for name, values in used.items():
+        channel = channel_of(name, time_ns, values, SENSORS[name], warnings)
+        if len(channel) and channel.name in found:
+            warnings.append(f"{name}: {len(channel)} values left out, another sensor gives {channel.name}")
+        elif len(channel):
+            found[channel.name] = channel
+    if "conductivity" in found:
+        found["conductivity"] = submerged(found["conductivity"], found.get("pressure"), warnings)
+    notes = {key: text for name in found for key, text in NOTES.get(name, {}).items()}
+    if "heading" in found:
+        found["heading"], notes["heading_note"] = _true(found["heading"], time_ns, columns.get(VARIATION), warnings)
+    if {LATITUDE, LONGITUDE} <= columns.keys():
+        found |= {channel.name: channel for channel in _fixes(time_ns, columns, warnings)}
+    if ROLLER in columns and np.isfinite(columns[ROLLER].sampled).any():
+        count = int(np.isfinite(columns[ROLLER].sampled).sum())
+        warnings.append(f"{ROLLER}: {count} values left out: no file known to this reader shows its sign")
+    if all(name in columns and np.isfinite(columns[name].sampled).any() for name in CURRENT):
+        east, north = (float(columns[name].latest[-1]) for name in CURRENT)
+        notes["glider_current_note"] = (
+            f"the glider's own estimate of the current over its dives, last in the file: m_water_vx {east:.3f}, "
+            f"m_water_vy {north:.3f} m/s, y towards its magnetic north"
+        )
+    return [channel for channel in found.values() if len(channel)], notes, warnings
+
+
+def _without_idle_ctd(used: dict[str, Array], warnings: list[str]) -> None:
+    """Take out what a CTD tells when it did not sample: temperature, conductivity and pressure all exactly zero."""
+    if not set(CTD) <= used.keys():
+        return
+    idle = np.all([used[name] == 0.0 for name in CTD], axis=0)
+    if idle.any():
+        warnings.append(f"sci_water: {int(idle.sum())} samples of zeros alone left out")
+        used |= {name: np.where(idle, np.nan, used[name]) for name in CTD}
+
+
+def _true(heading: Channel, time_ns: Times, variation: Column | None, warnings: list[str]) -> tuple[Channel, str]:
+    """Heading from true north, in 0 to 360 deg, and what was done."""
+    turn = np.full(len(time_ns), np.nan) if variation is None else variation.latest
+    turn = turn[np.searchsorted(time_ns, heading.time_ns)]
+    if not (np.abs(turn) <= HALF).all():
+        warnings.append(f"m_heading: {len(heading)} values stay from magnetic north, the file tells no {VARIATION}")
+        return heading, f"from magnetic north, m_heading as recorded: the file tells no {VARIATION}"
+    turned = (heading.values - turn) % (2.0 * math.pi)
+    low, high = (f"{math.degrees(value):.1f}" for value in (turn.min(), turn.max()))
+    told = low if low == high else f"{low} to {high}"
+    note = (
+        f"from true north: m_heading, from magnetic north, less {VARIATION} ({told} deg, negative where magnetic north "
+        "lies east); the glider's dead reckoning takes both so"
+    )
+    return Channel("heading", heading.time_ns, turned), note
+
+
+def _fixes(time_ns: Times, columns: Mapping[str, Column], warnings: list[str]) -> list[Channel]:
+    """Genuine GPS fixes, deg: where latitude and longitude are told together, one of them new, by a receiver that says
+    so (m_gps_status 0)."""
+    place = [columns[name] for name in (LATITUDE, LONGITUDE)]
+    latitude, longitude = (_degrees(column.sampled) for column in place)
+    told = ~np.isnan(place[0].sampled) | ~np.isnan(place[1].sampled)
+    fix = (np.abs(latitude) <= 90.0) & (np.abs(longitude) <= 180.0) & ((latitude != 0.0) | (longitude != 0.0))
+    fix &= place[0].fresh | place[1].fresh
+    if STATUS in columns:
+        fix &= (columns[STATUS].latest == 0.0) & ~np.isinf(columns[STATUS].sampled)
+    others = int((told & ~fix).sum())
+    if others:
+        warnings.append(f"m_gps_lat, m_gps_lon: {others} values left out that are no new fix, {int(fix.sum())} kept")
+    return [Channel("latitude", time_ns[fix], latitude[fix]), Channel("longitude", time_ns[fix], longitude[fix])]
+
+
+def _degrees(value: Array) -> Array:
+    """Degrees from ddmm.mmm, signed; NaN where the minutes are 60 or more, or the value is no number."""
+    value = np.where(np.isfinite(value), value, np.nan)
+    whole = np.floor(np.abs(value) / 100.0)
+    minutes = np.abs(value) - 100.0 * whole
+    return np.where(minutes < 60.0, np.sign(value) * (whole + minutes / 60.0), np.nan)

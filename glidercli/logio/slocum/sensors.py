@@ -1,0 +1,71 @@
+"""What did any one sensor of a Slocum file record? Every sample by name, with its time, as the file has it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glidercli.errors import InputError
+from glidercli.files import readable_file
+from glidercli.logio.slocum.caches import cached_list
+from glidercli.logio.slocum.cycles import Cycles
+from glidercli.logio.slocum.header import header_of
+from glidercli.logio.slocum.packing import LABEL, is_packed, unpacked
+from glidercli.logio.slocum.scanning import scan
+
+__all__ = ["cycles_of", "sensors", "times_of"]
+
+CLOCKS = ("m_present_time", "sci_m_present_time")
+"""Sensors that tell a cycle's time, s since 1970: the navigation's, the science computer's; the first that is there."""
+
+
+def cycles_of(path: Path, cache: Path | None = None) -> tuple[Cycles, str | None]:
+    """The cycles of a file, and where its compressed data are damaged, or None."""
+    data, damage = readable_file(path).read_bytes(), None
+    if is_packed(data[:16], LABEL):
+        data, at = unpacked(data)
+        if at is not None:
+            damage = f"compressed data cut short or damaged at byte {at} of the file: only what stands before was read"
+    header = header_of(path, data, lambda crc: cached_list(path, crc, cache))
+    return scan(header, data), damage
+
+
+def times_of(path: Path, cycles: Cycles) -> NDArray[np.float64]:
+    """The time of each cycle, (n,), s since 1970; NaN where none is known. Raises InputError where none can be."""
+    places = cycles.header.listed.places
+    clock = next((places[name] for name in CLOCKS if name in places), None)
+    if clock is None:
+        raise InputError(path, f"none of its {len(places)} sensors tells the time; {' or '.join(CLOCKS)} is needed")
+    rows, _, values = next(cycles.samples([clock]))
+    time_s = np.full(len(cycles), np.nan)
+    time_s[rows] = values
+    return time_s
+
+
+def sensors(
+    path: str | Path, names: Iterable[str] | None = None, cache: str | Path | None = None
+) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    """Times (s since 1970) and values of sensors by name, in the file's own units; None asks for all of them.
+
+    A sample is a cycle that says updated, with a new or the same value, at the cycle's time. The first cycle, which
+    tells every sensor's last value, however old, is left out, and so are samples without a number (NaN).
+    cache : folder of caches, asked after those beside the file. Raises InputError for a file that cannot be read and
+    for a sensor that it does not have.
+    """
+    path = Path(path)
+    cycles, _ = cycles_of(path, None if cache is None else Path(cache))
+    places = cycles.header.listed.places
+    wanted = list(places if names is None else names)
+    for name in wanted:
+        if name not in places:
+            raise InputError(path, f"has no sensor {name}; it has {len(places)}, such as {', '.join(list(places)[:3])}")
+    time_s = times_of(path, cycles)
+    told = cycles.samples(places[name] for name in wanted)
+    found = {}
+    for name, (rows, _, values) in zip(wanted, told, strict=True):
+        good = (rows >= cycles.stale) & ~np.isnan(values)
+        found[name] = time_s[rows[good]], values[good]
+    return found
