@@ -27,6 +27,8 @@ _MEMORY, _MEMORY_PER_BYTE = 4 << 30, 200  # bytes; a PD0 file of 1 MB took 0.4 G
 def adcp_currents(path: Path, kind: str) -> tuple[CurrentProfile, ...]:
     """The current profiles of a file; see pings.py. kind : of the file, for messages.
 
+    Of an .ad2cp the library leaves out the last record, whole or not.
+
     The file is copied to a folder that is removed afterwards, since the library writes an index beside it.
 
     Raises

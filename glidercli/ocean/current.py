@@ -160,8 +160,7 @@ def profile_of(
     if len(order) < 2:
         return (*dropped, ("in a profile of a single bin", 1)) if len(order) else dropped
     up = velocity[2, order] if len(velocity) > 2 else np.zeros(len(order))
-    warnings = wide_gaps(depth[order], "bin")
-    return CurrentProfile(depth[order], velocity[0, order], velocity[1, order], up, path, dropped, warnings)
+    return CurrentProfile(depth[order], velocity[0, order], velocity[1, order], up, path, dropped, ())
 
 
 def _faults(velocity: Array, gap: str) -> list[tuple[str, Mask]]:

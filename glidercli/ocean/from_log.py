@@ -21,13 +21,12 @@ from glidercli.ocean.cast import Cast
 from glidercli.ocean.counting import counted
 from glidercli.ocean.current import GREATEST_SPEED, CurrentProfile
 from glidercli.ocean.dives import BIN, by_bins, depth_at, turns
-from glidercli.ocean.doubts import overturn
 from glidercli.ocean.measured import Measured, cast_of, usable
 from glidercli.ocean.place import Place
-from glidercli.ocean.profile import wide_gaps
 from glidercli.ocean.seawater import checked_latitude, depth_from_pressure
 from glidercli.ocean.series import Moment
 from glidercli.ocean.source import left_out
+from glidercli.ocean.together import gaps_of, overturns_of
 from glidercli.units import DBAR
 
 __all__ = ["casts_of_log", "currents_of_log", "source_of"]
@@ -110,7 +109,9 @@ def casts_of_log(log: Log, latitude: float | None = None, longitude: float | Non
         raise InputError(source, _none_of(len(times), dropped))
     by_place = water.temperature is not None and water.absolute_salinity is None
     told = left_out(dropped, len(times), "samples") + _told(axis, casts, int(kept.sum()) - few)
-    told += place.warnings("pressure" if axis.origin == "depth" else "depth", by_place) + _overturns(casts)
+    told += place.warnings("pressure" if axis.origin == "depth" else "depth", by_place) + overturns_of(
+        [cast.density for cast in casts]
+    )
     first = dataclasses.replace(casts[0], dropped=dropped + casts[0].dropped, warnings=told)
     return (first, *casts[1:])
 
@@ -245,19 +246,8 @@ def _told(axis: _Axis, profiles: list[Cast] | list[CurrentProfile], samples: int
     """What was made of the samples, in a line; and the gaps of the profiles."""
     bins = sum(len(profile.depth) for profile in profiles)
     many = f"{len(profiles)} descents and ascents" if len(profiles) > 1 else "one descent or ascent"
-    lines = [f"{many} by {axis.origin}: {samples} samples in {bins} bins of {BIN:g} m, medians, derived"]
-    gaps = [line for profile in profiles for line in wide_gaps(profile.depth, "sample")]
-    if gaps:
-        lines.append(gaps[0] + (f"; gaps also in {len(gaps) - 1} more profiles" if len(gaps) > 1 else ""))
-    return tuple(lines)
-
-
-def _overturns(casts: list[Cast]) -> tuple[str, ...]:
-    falls = [fall for cast in casts if (fall := overturn(cast.density)) > 0.0]
-    if not falls:
-        return ()
-    where = f"in {len(falls)} of {len(casts)} profiles"
-    return (f"density falls with depth by up to {max(falls):.2f} kg/m3 {where}: such water would overturn",)
+    lines = (f"{many} by {axis.origin}: {samples} samples in {bins} bins of {BIN:g} m, medians, derived",)
+    return (*lines, *gaps_of([profile.depth for profile in profiles], "sample"))
 
 
 def _none_of(total: int, dropped: Dropped) -> str:

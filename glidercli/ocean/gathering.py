@@ -44,8 +44,9 @@ def gathered_casts(
     latitude, longitude : deg, for casts without their own. start_ns : UTC since 1970, of the flight.
 
     A single cast always holds. Of logs, and nothing else, in a flight without a start time the first descent or ascent
-    holds throughout, with a warning. Raises InputError where a source cannot be used, one of several casts has no time,
-    or two have the same.
+    that reaches nine tenths of the greatest depth holds throughout, with a warning.
+
+    Raises InputError where a source cannot be used, one of several casts has no time, or two have the same.
     """
 
     def read(source: Source) -> tuple[Cast, ...]:
@@ -96,10 +97,12 @@ def _in_order(
     timed = [moment for moment in moments if moment is not None]
     undated = start_ns is None and any(moment.is_utc for moment in timed)
     if undated and all(isinstance(source, Log) for source in given):
-        first = min(range(len(found)), key=lambda i: timed[i].seconds)
+        deep = 0.9 * max(profile.depth[-1] for profile in found)
+        first = min((i for i in range(len(found)) if found[i].depth[-1] >= deep), key=lambda i: timed[i].seconds)
         word = (
-            f"the flight has no start time: of its {len(found)} descents and ascents the first one holds throughout; "
-            "start_time in a mission, or --controls or --initial with this log, places them all"
+            f"the flight has no start time: of its {len(found)} descents and ascents the first that goes near the "
+            f"greatest depth, of {timed[first].text}, holds throughout; start_time in a mission, or --controls or "
+            "--initial with this log, places them all"
         )
         warnings = (word, *found[0].warnings)
         return (dataclasses.replace(found[first], moment=None, warnings=warnings),)

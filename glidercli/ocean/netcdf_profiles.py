@@ -16,15 +16,14 @@ from glidercli.ocean import seawater
 from glidercli.ocean.cast import Cast
 from glidercli.ocean.counting import counted
 from glidercli.ocean.current import CurrentProfile, profile_of
-from glidercli.ocean.doubts import doubts
 from glidercli.ocean.measured import Measured, cast_of, usable
 from glidercli.ocean.netcdf import NcFile, long_dimensions, opened
 from glidercli.ocean.netcdf_layout import MAIN, Layout, layout_of, main_of
 from glidercli.ocean.pings import PING_VARIABLES, currents_of_pings, is_pings, pings_of
 from glidercli.ocean.place import Place
-from glidercli.ocean.profile import wide_gaps
 from glidercli.ocean.series import Moment
 from glidercli.ocean.source import left_out
+from glidercli.ocean.together import gaps_of, overturns_of
 
 __all__ = ["netcdf_casts", "netcdf_currents"]
 
@@ -77,8 +76,9 @@ def netcdf_casts(path: Path, latitude: float | None, longitude: float | None) ->
             lost += [dropped, ((_FEW if timed else _NO_TIME, len(order)),) if len(order) else ()]
             continue
         cast = cast_of(water.rows(order), places[i], path, moment=_moment(times[i]), dropped=dropped)
-        casts.append(dataclasses.replace(cast, warnings=_about(cast, water, places[i])))
-    return _finished(path, casts, lost, remarks)
+        casts.append(dataclasses.replace(cast, warnings=_about(water, places[i])))
+    remarks += gaps_of([cast.depth for cast in casts], "sample") + overturns_of([cast.density for cast in casts])
+    return _finished(path, casts, lost, remarks, "samples")
 
 
 def netcdf_currents(path: Path) -> tuple[CurrentProfile, ...]:
@@ -122,7 +122,7 @@ def netcdf_currents(path: Path) -> tuple[CurrentProfile, ...]:
             lost += [found.dropped, ((_NO_TIME, len(found.depth)),)]
         else:
             lost.append(found)
-    return _finished(path, profiles, lost, remarks)
+    return _finished(path, profiles, lost, remarks + gaps_of([profile.depth for profile in profiles], "bin"), "bins")
 
 
 def _as_read(file: NcFile) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
@@ -211,16 +211,13 @@ def _by_depth(path: Path, water: Measured, kept: Mask, number: int) -> tuple[NDA
     return order[~again], (("repeated depth", int(again.sum())),) if again.any() else ()
 
 
-def _about(cast: Cast, water: Measured, place: Place) -> tuple[str, ...]:
-    """What is doubtful of a cast."""
+def _about(water: Measured, place: Place) -> tuple[str, ...]:
+    """What a cast's place leaves open."""
     computed = "depth" if water.depth is None else "pressure"
-    by_place = water.salinity is not None or water.conductivity is not None
-    return (
-        *place.warnings(computed, by_place), *doubts(cast.salinity, cast.density), *wide_gaps(cast.depth, "sample")
-    )  # fmt: skip
+    return place.warnings(computed, water.salinity is not None or water.conductivity is not None)
 
 
-def _finished(path: Path, found: list[P], lost: list[Dropped], remarks: tuple[str, ...]) -> tuple[P, ...]:
+def _finished(path: Path, found: list[P], lost: list[Dropped], remarks: tuple[str, ...], what: str) -> tuple[P, ...]:
     """The profiles, with the account of those that are left out on the first one; InputError where none is left."""
     gone: Counter[str] = Counter()
     whole: Counter[str] = Counter()
@@ -232,7 +229,7 @@ def _finished(path: Path, found: list[P], lost: list[Dropped], remarks: tuple[st
     total: int = sum(profile.records for profile in found) + gone.total()
     if not found:
         told = ", ".join(f"{count} {reason}" for reason, count in whole.items()) or "no values at all"
-        raise InputError(path, f"has no profile of two usable samples among {total} samples: {told}")
-    warnings = (*remarks, *left_out(tuple(whole.items()), total, "samples"), *found[0].warnings)
+        raise InputError(path, f"has no profile of two usable {what} among {total} {what}: {told}")
+    warnings = (*remarks, *left_out(tuple(whole.items()), total, what), *found[0].warnings)
     found[0] = dataclasses.replace(found[0], dropped=(*gone.items(), *found[0].dropped), warnings=warnings)
     return tuple(found)

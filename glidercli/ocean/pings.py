@@ -26,6 +26,7 @@ from glidercli.ocean.current import BAD_VELOCITY, DEEPEST, GREATEST_SPEED, Curre
 from glidercli.ocean.seawater import depth_from_pressure
 from glidercli.ocean.series import Moment
 from glidercli.ocean.source import left_out
+from glidercli.ocean.together import gaps_of
 
 __all__ = ["PING_VARIABLES", "Pings", "currents_of_pings", "is_pings", "pings_of"]
 
@@ -165,8 +166,9 @@ def currents_of_pings(path: Path, pings: Pings) -> tuple[CurrentProfile, ...]:
         raise InputError(path, f"has no profile of two usable bins among {len(pings.time)} ensembles: {told}")
     total = sum(profile.records for profile in profiles) + gone.total()
     told_depth = pings.depth[kept]
+    many = "1 profile" if len(profiles) == 1 else f"{len(profiles)} profiles"
     lines = [
-        f"{int(kept.sum())} ensembles averaged over {width / 60.0:g} min to {len(profiles)} profile{'s' if len(profiles) > 1 else ''}; instrument at "
+        f"{int(kept.sum())} ensembles averaged over {width / 60.0:g} min to {many}; instrument at "
         f"{told_depth.min():.1f} to {told_depth.max():.1f} m, looking {pings.looks}",
         *left_out(dropped, len(pings.time), "ensembles"),
         *left_out(tuple(whole.items()), total, "bins"),
@@ -175,9 +177,8 @@ def currents_of_pings(path: Path, pings: Pings) -> tuple[CurrentProfile, ...]:
         lines.append("no bottom track: the velocities are over ground only if the instrument stood still")
     if not pings.declination:
         lines.append("its magnetic declination is 0 deg: if that was not set, east and north are magnetic")
-    profiles[0] = dataclasses.replace(
-        profiles[0], dropped=(*gone.items(), *profiles[0].dropped), warnings=(*lines, *profiles[0].warnings)
-    )
+    lines += gaps_of([profile.depth for profile in profiles], "bin")
+    profiles[0] = dataclasses.replace(profiles[0], dropped=(*gone.items(), *profiles[0].dropped), warnings=tuple(lines))
     return tuple(profiles)
 
 
@@ -187,7 +188,7 @@ def _over_ground(pings: Pings) -> tuple[Array, Mask, tuple[tuple[str, int], ...]
     faults: list[tuple[str, Mask]] = [
         ("without a time", ~np.isfinite(pings.time)),
         ("without the depth of the instrument", ~np.isfinite(pings.depth)),
-        ("without a good bin", ~np.isfinite(velocity).all(axis=0).any(axis=0)),
+        ("without a good bin", np.asarray(~np.isfinite(velocity).all(axis=0).any(axis=0))),
     ]
     if pings.bottom_velocity is not None:
         faults.append(("without bottom track", ~np.isfinite(pings.bottom_velocity).all(axis=0)))
@@ -230,11 +231,11 @@ def _mean(path: Path, pings: Pings, velocity: Array, inside: Mask) -> CurrentPro
     down = pings.looks == "down"
     depth = at + pings.range if down else at - pings.range
     reach = math.cos(pings.beam_angle)
-    faults = [("above the surface", depth < 0.0)]
+    faults: list[tuple[str, Mask]] = [("above the surface", depth < 0.0)]
     if not down:
         faults.append(("in the side lobe of the surface", pings.range > at * reach))
     elif pings.bottom_range is not None and np.isfinite(pings.bottom_range[inside]).any():
-        nearest = float(np.nanmin(pings.bottom_range[inside]))
+        nearest = float(np.nanmedian(pings.bottom_range[inside]))
         faults.append(("below the bottom or in its side lobe", pings.range > nearest * reach))
     found = profile_of(path, depth, mean, np.ones(len(depth), dtype=bool), faults)
     if isinstance(found, CurrentProfile):
