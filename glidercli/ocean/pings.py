@@ -191,7 +191,7 @@ def _over_ground(pings: Pings) -> tuple[Array, Mask, tuple[tuple[str, int], ...]
         ("without a good bin", np.asarray(~np.isfinite(velocity).all(axis=0).any(axis=0))),
     ]
     if pings.bottom_velocity is not None:
-        faults.append(("without bottom track", ~np.isfinite(pings.bottom_velocity).all(axis=0)))
+        faults.append(("without bottom track", np.asarray(~np.isfinite(pings.bottom_velocity).all(axis=0))))
         velocity = velocity - pings.bottom_velocity[:, np.newaxis, :]
     else:
         faults.append((f"while the instrument sinks or rises by more than {_STILL:g} m/s", _sinking(pings)))

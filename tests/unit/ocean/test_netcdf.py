@@ -291,7 +291,7 @@ def test_files_without_water(mooring, tmp_path, write):
     with pytest.raises(InputError, match="no water that can be used: needed are temperature with salinity"):
         read_casts(save(mooring[["TEMP"]], tmp_path / "b.nc"))
     with pytest.raises(
-        InputError, match="has no profile of two usable samples among 15 samples: 15 without temperature"
+        InputError, match="has no profile of two usable samples among 15 samples: 14 without temperature, 1 flagged bad"
     ):
         read_casts(
             save(
