@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import json
-import shutil
+import os
 import subprocess
 import sys
 import tempfile
@@ -21,6 +21,7 @@ from glidercli.ocean.pings import currents_of_pings, is_pings, pings_of
 __all__ = ["adcp_currents"]
 
 _SECONDS, _SECONDS_PER_MB = 60.0, 5.0  # ten times what the slowest real file took, on a busy machine
+_ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OPENBLAS", "OMP", "MKL")}  # threads reserve memory
 _MEMORY, _MEMORY_PER_BYTE = 4 << 30, 200  # bytes; a PD0 file of 1 MB took 0.4 GB with all libraries
 
 
@@ -29,7 +30,7 @@ def adcp_currents(path: Path, kind: str) -> tuple[CurrentProfile, ...]:
 
     Of an .ad2cp the library leaves out the last record, whole or not.
 
-    The file is copied to a folder that is removed afterwards, since the library writes an index beside it.
+    The file is read through a link in a folder that is removed afterwards: the library writes an index beside it.
 
     Raises
     ------
@@ -48,14 +49,16 @@ def _read(path: Path, kind: str) -> tuple[dict[str, NDArray[Any]], dict[str, Any
     """Variables and attributes as mhkit's dolfyn names them."""
     size = path.stat().st_size
     with tempfile.TemporaryDirectory(prefix="glider-adcp-") as folder:
-        copy = Path(shutil.copyfile(path, Path(folder) / f"input{path.suffix}"))
+        link = Path(folder) / f"input{path.suffix}"
+        link.symlink_to(path.resolve())
         target = Path(folder) / "output.npz"
-        command = [sys.executable, "-W", "ignore", "-m", "glidercli.ocean.adcp_child", str(copy), str(target)]
+        command = [sys.executable, "-P", "-W", "ignore", "-m", "glidercli.ocean.adcp_child", str(link), str(target)]
         seconds = _SECONDS + _SECONDS_PER_MB * size / 1e6
         try:
             done = subprocess.run(
                 [*command, str(_MEMORY + _MEMORY_PER_BYTE * size)],
                 capture_output=True, text=True, errors="replace", timeout=seconds, stdin=subprocess.DEVNULL,
+                env={**os.environ, **_ONE_THREAD},
             )  # fmt: skip
         except subprocess.TimeoutExpired:
             raise InputError(path, f"is a damaged {kind} file: not read within {seconds:.0f} s") from None

@@ -171,7 +171,12 @@ def currents_of_log(log: Log) -> tuple[CurrentProfile, ...]:
 
 
 def _union(times: list[Times]) -> Times:
-    return np.unique(np.concatenate(times)) if times else np.zeros(0, dtype=np.int64)
+    """Times that any of several channels has; most often they share them."""
+    if not times:
+        return np.zeros(0, dtype=np.int64)
+    if all(np.array_equal(times[0], other) for other in times[1:]):
+        return times[0]
+    return np.unique(np.concatenate(times))
 
 
 def _on(times: Times, own: Times, values: Array) -> Array:
@@ -196,7 +201,8 @@ def _axis(log: Log, times: Times, latitude: float) -> _Axis | None:
     for name in ("depth", "pressure"):
         channel = log.channels.get(name)
         if channel is not None and len(channel):
-            found.append((int(np.isin(times, channel.time_ns).sum()), channel))
+            nearest = np.minimum(np.searchsorted(times, channel.time_ns), max(len(times) - 1, 0))
+            found.append((int((times[nearest] == channel.time_ns).sum()) if len(times) else 0, channel))
     if not found:
         return None
     _, channel = max(found, key=lambda item: item[0])

@@ -85,6 +85,15 @@ def main_of(file: NcFile, wanted: tuple[str, ...] = MAIN) -> tuple[str, Any] | N
 
 def layout_of(file: NcFile, main: Any) -> Layout:
     """The layout of a file, told by its main variable; InputError where there is none that can be read."""
+    layout = _found_layout(file, main)
+    if _is_record(file, layout):
+        raise InputError(
+            file.path, "its depth goes up and down in time: it holds no profiles, and is no log that is known"
+        )
+    return layout
+
+
+def _found_layout(file: NcFile, main: Any) -> Layout:
     found = _axis(file, main)
     if found is None:
         raise InputError(
@@ -111,15 +120,19 @@ def has_profiles(path: Path) -> bool:
             found = main_of(file)
             if found is None or _axis(file, found[1]) is None:
                 return False
-            layout = layout_of(file, found[1])
-            if layout.across is not None or layout.rows:
-                return True
-            values, _ = file.values(layout.axis_variable, layout.axis)
-            steps = np.diff(values[np.isfinite(values)])
-            in_time = any(layout.vertical in long_dimensions(v) for v in file.candidates("time"))
-            return not in_time or bool((steps > 0.0).all() or (steps < 0.0).all())
+            return not _is_record(file, _found_layout(file, found[1]))
     except InputError:
         return True  # the reader says why
+
+
+def _is_record(file: NcFile, layout: Layout) -> bool:
+    """Whether depth goes up and down along a dimension of time."""
+    if layout.across is not None or layout.rows:
+        return False
+    values, _ = file.values(layout.axis_variable, layout.axis)
+    steps = np.diff(values[np.isfinite(values)])
+    in_time = any(layout.vertical in long_dimensions(v) for v in file.candidates("time"))
+    return in_time and not bool((steps > 0.0).all() or (steps < 0.0).all())
 
 
 def _axis(file: NcFile, main: Any) -> tuple[str, Any] | None:

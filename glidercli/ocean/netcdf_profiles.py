@@ -53,7 +53,7 @@ def netcdf_casts(path: Path, latitude: float | None, longitude: float | None) ->
         places = [Place(*at, latitude, longitude) for at in zip(*own, strict=True)]
         bad = np.zeros(0, dtype=bool)
         columns: dict[str, Array | None] = {}
-        for quantity in ("depth", "pressure", *MAIN[:-1], "salinity", "absolute_salinity", "conductivity"):
+        for quantity in _needed(file, layout):
             values, flagged = _column(file, layout, quantity)
             columns[quantity] = values
             if values is not None:
@@ -140,17 +140,36 @@ def _as_read(file: NcFile) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
 
 def _column(file: NcFile, layout: Layout, quantity: str) -> tuple[Array | None, Mask]:
     """A quantity by profile and sample, and where it is flagged bad; None where the file does not have it."""
-    within = (layout.vertical, *((layout.across,) if layout.across else ()), *layout.rows)
-    variable = layout.axis_variable if quantity == layout.axis else None
-    for candidate in [] if variable is not None else file.candidates(quantity):
-        long = set(long_dimensions(candidate))
-        if long <= set(within) and (long & {layout.vertical, *layout.rows}):
-            variable = candidate
-            break
+    variable = _variable(file, layout, quantity)
     if variable is None:
         return None, np.zeros(0, dtype=bool)
     values, flagged = file.values(variable, quantity)
     return layout.table(file.path, variable, values), layout.table(file.path, variable, flagged, False)
+
+
+def _needed(file: NcFile, layout: Layout) -> list[str]:
+    """The quantities that make the water, of those that a file has the most direct ones."""
+    groups = (
+        ("depth", "pressure"),
+        ("temperature", "conservative_temperature", "potential_temperature"),
+        ("salinity", "absolute_salinity", "conductivity"),
+    )
+    found = [next((q for q in group if _variable(file, layout, q) is not None), None) for group in groups]
+    if found[1] is None or found[2] is None:
+        found[2] = "density"
+    return [quantity for quantity in found if quantity is not None]
+
+
+def _variable(file: NcFile, layout: Layout, quantity: str) -> Any | None:
+    """The variable of a quantity that lies along the profiles, or None."""
+    if quantity == layout.axis:
+        return layout.axis_variable
+    within = {layout.vertical, *((layout.across,) if layout.across else ()), *layout.rows}
+    for candidate in file.candidates(quantity):
+        long = set(long_dimensions(candidate))
+        if long <= within and long & {layout.vertical, *layout.rows}:
+            return candidate
+    return None
 
 
 def _along(file: NcFile, layout: Layout, quantity: str) -> list[float | None]:
@@ -178,8 +197,8 @@ def _moment(seconds: float) -> Moment | None:
 
 def _water(path: Path, rows: dict[str, Array | None], place: Place) -> Measured:
     """What one profile has, with the in-situ temperature of a potential or conservative one."""
-    depth, pressure, temperature = rows["depth"], rows["pressure"], rows["temperature"]
-    salinity, absolute = rows["salinity"], rows["absolute_salinity"]
+    depth, pressure, temperature = rows.get("depth"), rows.get("pressure"), rows.get("temperature")
+    salinity, absolute = rows.get("salinity"), rows.get("absolute_salinity")
     if temperature is None and (salinity is not None or absolute is not None):
         p = pressure if depth is None else seawater.pressure_from_depth(np.clip(depth, 0.0, None), place.used)
         if p is not None:
@@ -187,14 +206,13 @@ def _water(path: Path, rows: dict[str, Array | None], place: Place) -> Measured:
                 absolute_here = place.absolute_salinity(np.where(np.abs(salinity) < 50.0, salinity, np.nan), p)
             else:
                 absolute_here = np.asarray(absolute)
-            if (potential := rows["potential_temperature"]) is not None:
+            if (potential := rows.get("potential_temperature")) is not None:
                 temperature = seawater.temperature_from_potential(absolute_here, potential, p)
-            elif (conservative := rows["conservative_temperature"]) is not None:
+            elif (conservative := rows.get("conservative_temperature")) is not None:
                 temperature = seawater.temperature_from_conservative(absolute_here, conservative, p)
     names = ", ".join(name for name, values in rows.items() if values is not None)
-    water = Measured(depth, pressure, temperature, salinity, absolute, rows["conductivity"], rows["density"])
-    both = depth is not None and pressure is not None
-    return (water._replace(pressure_dbar=None) if both else water).checked(path, names)
+    water = Measured(depth, pressure, temperature, salinity, absolute, rows.get("conductivity"), rows.get("density"))
+    return water.checked(path, names)
 
 
 def _by_depth(path: Path, water: Measured, kept: Mask, number: int) -> tuple[NDArray[np.intp], Dropped]:

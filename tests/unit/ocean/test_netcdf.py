@@ -252,6 +252,33 @@ def test_units_are_converted(tmp_path):
     assert cast.salinity == pytest.approx(gsw.SP_from_C([50, 49, 45, 40, 38], T[0], cast.pressure_dbar), abs=1e-9)
 
 
+def test_what_is_not_needed_is_not_read(mooring, tmp_path):
+    more = mooring.assign(DENS=(("TIME", "DEPTH"), T + 1.0, standard("sea_water_density", "lb/ft3")))
+    assert len(read_casts(save(more, tmp_path / "m.nc"))) == 3
+    with pytest.raises(InputError, match="DENS is in 'lb/ft3', allowed: kg/m3"):
+        read_casts(save(more.drop_vars(["TEMP", "TEMP_QC"]), tmp_path / "d.nc"))
+
+
+def test_profiles_without_a_time_or_with_too_few_samples_are_counted(mooring, tmp_path):
+    values = mooring.TEMP.values.copy()
+    values[0, 1:] = np.nan
+    times = mooring.TIME.values.copy()
+    times[1] = np.datetime64("NaT")
+    made = (
+        mooring.drop_vars("TEMP_QC")
+        .assign(TEMP=(("TIME", "DEPTH"), values, mooring.TEMP.attrs))
+        .assign_coords(TIME=("TIME", times, {"standard_name": "time"}))
+    )
+    (cast,) = read_casts(save(made, tmp_path / "m.nc"))
+    assert cast.temperature.tolist() == T[2].tolist()
+    assert cast.records == 15
+    assert dict(cast.dropped) == {
+        "without temperature": 4,
+        "in a profile of fewer than two usable samples": 1,
+        "in a profile without a time": 5,
+    }
+
+
 def test_a_record_in_time_is_a_log(tmp_path):
     t = np.arange(40)
     depth = np.concatenate([t[:20], 20 - t[:20]]).astype(float)
@@ -265,6 +292,8 @@ def test_a_record_in_time_is_a_log(tmp_path):
     )
     path = save(made, tmp_path / "trajectory.nc")
     assert not holds_profiles(path)
+    with pytest.raises(InputError, match="its depth goes up and down in time: it holds no profiles"):
+        read_casts(path)
     down = save(made.isel(time=slice(0, 20)), tmp_path / "down.nc")
     assert holds_profiles(down)
     assert len(read_casts(down)) == 1
