@@ -51,7 +51,8 @@ def holds_profiles(path: Path) -> bool:
             if is_cnv(stream.read(_HEAD).decode("latin-1")):
                 return True
             stream.seek(0)
-            return _is_table(io.TextIOWrapper(stream, encoding="latin-1", newline=""))
+            with io.TextIOWrapper(stream, encoding="latin-1", newline="") as text:
+                return _is_table(text)
     except (OSError, EOFError, zlib.error, csv.Error):
         return False
 

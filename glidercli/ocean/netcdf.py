@@ -108,6 +108,8 @@ QUANTITIES: dict[str, Quantity] = {
     "time": Quantity(("time",), ("time", "juld"), {}, ""),
 }  # fmt: skip
 
+_YEARS = (-8520336000.0, 7258118400.0)  # 1700 and 2200, s since 1970, as for tables; what lies beyond marks a gap
+_CALENDARS = ("standard", "gregorian", "proleptic_gregorian")  # those whose days are the days of logs
 _FRAMES = ("coord_sys", "coordinate_system", "coord_system", "velocity_frame", "reference_frame")
 _NOT_EARTH = ("beam", "inst", "ship", "xyz", "head", "principal", "streamwise")
 _FLAGS = ("_qc", "_seadatanet_qc", "_flag", "_flags", "_wodflag")
@@ -192,20 +194,21 @@ class NcFile:
         return values, self._flagged(variable)
 
     def seconds(self, variable: Any) -> Array:
-        """A variable of times as seconds since 1970, UTC; NaN where it has none."""
+        """A variable of times as seconds since 1970, UTC; NaN where it has none, or one before 1700 or after 2200."""
         import cftime
 
         raw = np.ma.asarray(self.numbers(variable), dtype=np.float64)
-        known = ~np.ma.getmaskarray(raw) & np.isfinite(raw.filled(np.nan))
-        found = np.full(raw.shape, np.nan)
         units, calendar = str(getattr(variable, "units", "")), str(getattr(variable, "calendar", "standard"))
         try:
-            told = cftime.num2date(raw.data[known], units, calendar, only_use_cftime_datetimes=False)
-            found[known] = cftime.date2num(told, "seconds since 1970-01-01", calendar)
+            if calendar not in _CALENDARS:
+                raise ValueError
+            zero, one = cftime.num2date([0, 1], units, calendar)
+            since_1970 = float(cftime.date2num(zero, "seconds since 1970-01-01", calendar))
         except (ValueError, OverflowError, TypeError, AttributeError):
             what = f"{variable.name}: units = {units!r}, calendar = {calendar!r}"
             raise InputError(self.path, f"{what}; needed are times as 'days since 1950-01-01'") from None
-        return found
+        seconds = since_1970 + raw.filled(np.nan) * (one - zero).total_seconds()
+        return np.where((seconds >= _YEARS[0]) & (seconds <= _YEARS[1]), seconds, np.nan)
 
     def numbers(self, variable: Any) -> Any:
         """The values of a variable as they stand, masked where the file has none; InputError where too many."""
