@@ -22,7 +22,7 @@ __all__ = ["adcp_currents"]
 
 _SECONDS, _SECONDS_PER_MB = 60.0, 5.0  # real files of 0.1 to 2 MB took 1.6 to 2.3 s, most of it imports
 _ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OPENBLAS", "OMP", "MKL")}  # threads reserve memory
-_MEMORY, _MEMORY_PER_BYTE = 4 << 30, 200  # address space in bytes; real files took 1.6 GB, libraries included, and 20 bytes a byte
+_MEMORY, _MEMORY_PER_BYTE = 4 << 30, 200  # address space, bytes; real files took 1.6 GB with all libraries
 
 
 def adcp_currents(path: Path, kind: str) -> tuple[CurrentProfile, ...]:
