@@ -14,7 +14,7 @@ $(VENV)/.installed: pyproject.toml
 	  { echo "glider needs Python 3.11 or newer; name one: make PYTHON=python3.12 $(MAKECMDGOALS)" >&2; exit 1; }
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade 'pip>=24'
-	$(BIN)/python -m pip install --quiet --editable '.[test]'
+	$(BIN)/python -m pip install --quiet --editable '.[adcp,test]'
 	touch $@
 
 demo: $(VENV)/.installed

@@ -9,7 +9,6 @@ from typing import Annotated, Any
 import typer
 
 from glidercli.cli.options import Debug, Equations, EquationsOption, Force, Json, Quiet, output_option
-from glidercli.errors import UsageError
 
 _MOST_EVENTS = 40  # lines of the summary
 
@@ -18,8 +17,16 @@ def simulate(
     mission: Annotated[
         str | None, typer.Argument(help="Mission: a TOML file or the name of a shipped one.", show_default=False)
     ] = None,
-    ctd: Annotated[list[Path] | None, typer.Option(metavar="FILE", help="Cast of the water: .cnv or CSV.")] = None,
-    adcp: Annotated[list[Path] | None, typer.Option(metavar="FILE", help="Current by depth: CSV.")] = None,
+    ctd: Annotated[
+        list[Path] | None,
+        typer.Option(metavar="FILE|LOG", help="Water: .cnv, CSV, NetCDF or a log; several are casts in time."),
+    ] = None,
+    adcp: Annotated[
+        list[Path] | None,
+        typer.Option(
+            metavar="FILE|LOG", help="Current: CSV, NetCDF, RDI PD0, .ad2cp or a log; several are profiles in time."
+        ),
+    ] = None,
     controls: Annotated[
         str | None, typer.Option(metavar="LOG", help="Fly the actuators that a log recorded.", show_default=False)
     ] = None,
@@ -59,17 +66,18 @@ def simulate(
     from glidercli.cli.outputs import check_log_outputs, log_sink
     from glidercli.cli.printing import json_text, warn
     from glidercli.cli.progress import progress
+    from glidercli.cli.water_in import read_water
     from glidercli.kernel import tell_of_compiling
     from glidercli.provenance import provenance_json
     from glidercli.simulation import simulate as fly
     from glidercli.simulation.start import read_trim
 
-    cast, current = _one("--ctd", ctd), _one("--adcp", adcp)
     outputs = output or []
     check_log_outputs(outputs, force, json, pictures=True)
+    water, flow = read_water(ctd), read_water(adcp)
     logs = read_logs({"controls": controls, "initial": initial})
     first = None if trim is None else read_trim(trim)
-    files = [*logs.files, *([trim] if trim and str(trim) != "-" else [])]
+    files = [*logs.files, *([trim] if trim and str(trim) != "-" else []), *water.files, *flow.files]
     tell_of_compiling(lambda name: _say_compiling(name, quiet))
     with progress("the flight", "s", quiet) as bar, log_sink(outputs, force) as sink:
         flown = fly(
@@ -81,8 +89,8 @@ def simulate(
             trim=first,
             controls=logs.read.get("controls"),
             initial=logs.read.get("initial"),
-            ctd=cast,
-            adcp=current,
+            ctd=water.sources or None,
+            adcp=flow.sources or None,
             duration=duration,
             start_depth=start_depth,
             latitude=latitude,
@@ -98,7 +106,7 @@ def simulate(
         log = flown.log.with_metadata(provenance=provenance_json(inputs=flown.inputs, origin=origin))
         bar.stage("writing")
         sink.finish(log)
-    warn([*logs.warnings, *flown.warnings], quiet)
+    warn(list(dict.fromkeys([*logs.warnings, *water.warnings, *flow.warnings, *flown.warnings])), quiet)
     sink.say(quiet)
     if json:
         print(json_text(flown.document()))
@@ -112,13 +120,6 @@ def _say_compiling(name: str, quiet: bool) -> None:
 
     if name == "fly_stretch":
         say("compiling the flight model, once on this machine: some 10 s", quiet)
-
-
-def _one(option: str, files: list[Path] | None) -> Path | None:
-    """The file of an option that may stand once."""
-    if files and len(files) > 1:
-        raise UsageError(f"{option} is given {len(files)} times; one file is allowed")
-    return files[0] if files else None
 
 
 def _span(seconds: float) -> str:

@@ -16,8 +16,8 @@ from glidercli.logio.own.parquet_back import is_own_parquet, read_own_parquet
 from glidercli.logio.reader import Aids, Format, Part
 from glidercli.logio.seaexplorer import is_seaexplorer, read_seaexplorer
 from glidercli.logio.seaglider import is_seaglider, read_seaglider
-from glidercli.logio.tables import ENDINGS, is_table, read_table
 from glidercli.logio.slocum import is_slocum, read_slocum
+from glidercli.logio.tables import ENDINGS, is_table, read_table
 
 __all__ = ["FORMATS", "check_format", "format_of", "read_file", "unrecognised"]
 

@@ -10,9 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
+from glidercli.files import readable_file
 from glidercli.ocean import seawater
 from glidercli.ocean.cnv import is_cnv, parse_cnv
-from glidercli.ocean.downcast import DEEPEST_DBAR, SALINITY, TEMPERATURE, downcast
+from glidercli.ocean.doubts import doubts
+from glidercli.ocean.downcast import CONDUCTIVITY, DEEPEST_DBAR, DENSITY, SALINITY, TEMPERATURE, downcast
+from glidercli.ocean.kind import NETCDF, TEXT, kind_of
+from glidercli.ocean.place import Place
 from glidercli.ocean.profile import wide_gaps
 from glidercli.ocean.seabird import PRESSURE, samples
 from glidercli.ocean.series import Moment, parts
@@ -27,15 +31,10 @@ _CSV_COLUMNS = (
     "depth_m or pressure_dbar; temperature_degC with salinity, absolute_salinity_g_kg or conductivity_S_m, or "
     "density_kg_m3; and, if known, latitude_deg, longitude_deg, time_utc"
 )
-_EXPECTED = f"a CTD cast is a Sea-Bird .cnv file or a table with the columns {_CSV_COLUMNS}"
+_EXPECTED = f"a CTD cast is a Sea-Bird .cnv file, a NetCDF file or a table with the columns {_CSV_COLUMNS}"
 _SALT = ("salinity", "absolute_salinity_g_kg", "conductivity_S_m")
 _NEEDED = ("depth_m", "pressure_dbar", "temperature_degC", *_SALT, "density_kg_m3")
-_ELSEWHERE = 1.0  # deg between the latitude of a cast and that of a flight, worth a word
 _USED = (*_NEEDED, "latitude_deg", "longitude_deg")
-_CONDUCTIVITY = (0.0, 10.0)  # S/m; the saltiest warm sea has 7
-_DENSITY = (990.0, 1100.0)  # kg/m3 in situ: fresh at 45 degC to brine in the deepest trench
-_KG_PER_KG = (0.025, 0.045)  # ocean salinity in kg/kg, taken for practical
-_OVERTURN = 0.2  # kg/m3; noise and overturns in the sea stay below
 _DENSITY_MISMATCH = 0.1  # kg/m3; equations of state in use differ by less than 0.03
 
 
@@ -77,58 +76,17 @@ class Cast:
         return len(self.depth) + sum(count for _, count in self.dropped)
 
 
-@dataclass(frozen=True)
-class _Place:
-    """Where a cast was taken; ``used`` is the latitude that formulas get when it is not known.
-
-    given, given_longitude : what the caller gave, deg, for a cast that tells none of its own.
-    """
-
-    own_latitude: float | None
-    own_longitude: float | None
-    given: float | None
-    given_longitude: float | None
-
-    @property
-    def longitude(self) -> float | None:
-        return self.given_longitude if self.own_longitude is None else self.own_longitude
-
-    @property
-    def latitude(self) -> float | None:
-        return self.given if self.own_latitude is None else self.own_latitude
-
-    @property
-    def used(self) -> float:
-        return 0.0 if self.latitude is None else self.latitude
-
-    def warnings(self, missing: str | None, salinity_used: bool) -> tuple[str, ...]:
-        """What is not known, and how much that matters. missing : "depth" or "pressure" where it had to be computed."""
-        lines = []
-        if None not in (self.own_latitude, self.given) and abs(self.used - (self.given or 0.0)) > _ELSEWHERE:
-            lines.append(f"its own latitude, {self.used:g} deg, is used for it, not the {self.given:g} deg given")
-        if self.latitude is None and missing == "depth":
-            lines.append(
-                "latitude unknown, 0 deg is used: depth for a pressure is too great by up to 0.53 % "
-                "(5.2 m at 1000 dbar, at the poles)"
-            )
-        if self.latitude is None and missing == "pressure":
-            lines.append(
-                "latitude unknown, 0 deg is used: pressure for a depth is too small by up to 0.53 % "
-                "(5.4 dbar at 1000 m, at the poles)"
-            )
-        told = (("latitude", self.latitude), ("longitude", self.longitude))
-        unknown = " and ".join(name for name, value in told if value is None)
-        if unknown and salinity_used:
-            lines.append(
-                f"without {unknown} absolute salinity is the reference salinity: density is too small by "
-                "up to 0.02 kg/m3 in the open ocean"
-            )
-        return tuple(lines)
-
-
 def read_casts(path: str | Path, latitude: float | None = None, longitude: float | None = None) -> tuple[Cast, ...]:
-    """The casts of a file: of a table one for each time that several rows share; see ``read_ctd`` for each."""
+    """The casts of a file: of a table one for each time that several rows share, see ``read_ctd``; of a NetCDF file
+    those that it holds."""
     path = Path(path)
+    kind = kind_of(readable_file(path))
+    if kind == NETCDF:
+        from glidercli.ocean.netcdf_profiles import netcdf_casts
+
+        return netcdf_casts(path, latitude, longitude)
+    if kind != TEXT:
+        raise InputError(path, f"is a {kind} file, which holds current, not water; {_EXPECTED}")
     text = read_text(path, _EXPECTED)
     if is_cnv(text):
         return (read_ctd(path, latitude, longitude),)
@@ -168,7 +126,7 @@ def read_ctd(path: str | Path, latitude: float | None = None, longitude: float |
 def _from_cnv(path: Path, text: str, latitude: float | None, longitude: float | None) -> Cast:
     """The last descent of a .cnv file."""
     file = parse_cnv(path, text)
-    place = _Place(file.latitude, file.longitude, latitude, longitude)
+    place = Place(file.latitude, file.longitude, latitude, longitude)
     recorded = samples(file, place.used)
     kept, dropped, warnings = downcast(recorded)
     if file.unreadable:
@@ -181,7 +139,7 @@ def _from_cnv(path: Path, text: str, latitude: float | None, longitude: float | 
         raise InputError(path, f"has {len(kept)} usable samples of {total}: {reasons}; at least two are needed")
     pressure, temperature = recorded.pressure_dbar[kept], recorded.temperature[kept]
     salinity = recorded.salinity[kept]
-    absolute = _absolute_salinity(salinity, pressure, place)
+    absolute = place.absolute_salinity(salinity, pressure)
     depth = seawater.depth_from_pressure(pressure, place.used)
     computed = "depth" if file.first(*PRESSURE) else "pressure"
     return Cast(
@@ -211,17 +169,17 @@ def _from_table(table: Table, latitude: float | None, longitude: float | None) -
     table, dropped = _complete(whole)
     own_latitude = _constant(table, "latitude_deg", -90.0, 90.0)
     own_longitude = _constant(table, "longitude_deg", -180.0, 360.0)
-    place = _Place(own_latitude, own_longitude, latitude, longitude)
+    place = Place(own_latitude, own_longitude, latitude, longitude)
     depth, pressure = _axes(table, place)
     temperature = _column(table, "temperature_degC", TEMPERATURE)
     salinity = _column(table, "salinity", SALINITY)
-    conductivity = _column(table, "conductivity_S_m", _CONDUCTIVITY)
+    conductivity = _column(table, "conductivity_S_m", CONDUCTIVITY)
     if salinity is None and conductivity is not None and temperature is not None:
         salinity = seawater.practical_salinity(conductivity, temperature, pressure)
     absolute = _column(table, "absolute_salinity_g_kg", SALINITY)
     by_place = absolute is None and salinity is not None
     if absolute is None and salinity is not None:
-        absolute = _absolute_salinity(salinity, pressure, place)
+        absolute = place.absolute_salinity(salinity, pressure)
     density, warnings = _density(table, absolute, temperature, pressure)
     if len(table) < 2:
         raise InputError(
@@ -246,7 +204,7 @@ def _from_table(table: Table, latitude: float | None, longitude: float | None) -
             *left_out(dropped, len(whole), "samples"),
             *place.warnings(missing, by_place),
             *warnings,
-            *_doubts(salinity, density),
+            *doubts(salinity, density),
             *wide_gaps(depth, "sample"),
         ),
         reconstructed=whole.reconstructed,
@@ -268,7 +226,7 @@ def _complete(table: Table) -> tuple[Table, tuple[tuple[str, int], ...]]:
     return table.rows(kept), tuple(dropped)
 
 
-def _axes(table: Table, place: _Place) -> tuple[Array, Array]:
+def _axes(table: Table, place: Place) -> tuple[Array, Array]:
     """Depth, m, and pressure, dbar, of a table's rows; the one that it lacks comes from the other."""
     if "pressure_dbar" not in table:
         if "depth_m" not in table:
@@ -290,7 +248,7 @@ def _density(
     table: Table, absolute: Array | None, temperature: Array | None, pressure: Array
 ) -> tuple[Array, tuple[str, ...]]:
     """In-situ density, kg/m3, by TEOS-10 where salinity and temperature are there, else the table's; and warnings."""
-    own = _column(table, "density_kg_m3", _DENSITY)
+    own = _column(table, "density_kg_m3", DENSITY)
     if absolute is not None and temperature is not None:
         computed = seawater.density(absolute, temperature, pressure)
         apart = 0.0 if own is None else float(np.abs(own - computed).max())
@@ -303,27 +261,9 @@ def _density(
     return own, ()
 
 
-def _doubts(salinity: Array | None, density: Array) -> tuple[str, ...]:
-    """What is possible, but more likely a slip of whoever made the table."""
-    lines = []
-    if salinity is not None and _KG_PER_KG[0] < float(np.median(salinity)) < _KG_PER_KG[1]:
-        middle = f"salinity is about {np.median(salinity):g}"
-        lines.append(f"{middle}, nearly fresh; the ocean has about 35, which is 0.035 kg/kg")
-    fall = float((np.maximum.accumulate(density) - density).max())
-    if fall > _OVERTURN:
-        lines.append(f"density falls with depth by up to {fall:.2f} kg/m3: such water would overturn")
-    return tuple(lines)
-
-
 def _column(table: Table, name: str, allowed: tuple[float, float]) -> Array | None:
     """Numbers of a column within a range, or None without it."""
     return table.numbers(name, *allowed) if name in table else None
-
-
-def _absolute_salinity(salinity: Array, pressure: Array, place: _Place) -> Array:
-    """SA, g/kg, at the cast's place, or the reference salinity where the place is not known."""
-    longitude = None if place.latitude is None else place.longitude
-    return seawater.absolute_salinity(salinity, pressure, longitude, place.used)
 
 
 def _constant(table: Table, column: str, low: float, high: float) -> float | None:

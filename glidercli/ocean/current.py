@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,20 +11,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
+from glidercli.files import readable_file
+from glidercli.ocean.counting import counted
+from glidercli.ocean.kind import AD2CP, NETCDF, PD0, kind_of
 from glidercli.ocean.profile import wide_gaps
-from glidercli.ocean.series import Moment, parts
+from glidercli.ocean.series import Moment, parts, utc_seconds
 from glidercli.ocean.source import left_out, listed, read_text
 from glidercli.ocean.table import Table, parse_table
 
-__all__ = ["CurrentProfile", "read_adcp", "read_currents"]
+__all__ = ["BAD_VELOCITY", "DEEPEST", "GREATEST_SPEED", "CurrentProfile", "profile_of", "read_adcp", "read_currents"]
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 _EAST, _NORTH, _UP = "current_east_m_s", "current_north_m_s", "current_up_m_s"
-_ALLOWED = f"a current profile is a table with depth_m, {_EAST}, {_NORTH} and, if measured, {_UP}"
-_GREATEST_SPEED = 5.0  # m/s; the strongest tidal streams reach about that
-_BAD_VELOCITY = -32.768  # m/s: -32768 mm/s, the mark of a bad velocity in RDI and Nortek files
-_DEEPEST = 12000.0  # m
+_ALLOWED = (
+    f"a current profile is a table with depth_m, {_EAST}, {_NORTH} and, if measured, {_UP}; or NetCDF, RDI PD0, "
+    "Nortek .ad2cp"
+)
+GREATEST_SPEED = 5.0  # m/s; the strongest tidal streams reach about that
+BAD_VELOCITY = -32.768  # m/s: -32768 mm/s, the mark of a bad velocity in RDI and Nortek files
+DEEPEST = 12000.0  # m
+_FRAMES = ("coord_sys", "coordinate_system")
 
 
 @dataclass(frozen=True)
@@ -36,6 +45,7 @@ class CurrentProfile:
     warnings : one line each, without the file's name.
     reconstructed : whether the file says that it is a reconstruction.
     moment : when it holds, of a profile among several; None of a single one, which always holds.
+    own_moment : when it was measured, of a single one that tells.
     """
 
     depth: Array
@@ -47,6 +57,7 @@ class CurrentProfile:
     warnings: tuple[str, ...]
     reconstructed: bool = False
     moment: Moment | None = None
+    own_moment: Moment | None = None
 
     @property
     def records(self) -> int:
@@ -55,9 +66,20 @@ class CurrentProfile:
 
 
 def read_currents(path: str | Path) -> tuple[CurrentProfile, ...]:
-    """The current profiles of a table, one for each time that several rows share; see ``read_adcp`` for each."""
+    """The current profiles of a file: of a table one for each time that several rows share, see ``read_adcp``; of a
+    NetCDF file or an ADCP's binary those that it holds."""
     path = Path(path)
+    kind = kind_of(readable_file(path))
+    if kind == NETCDF:
+        from glidercli.ocean.netcdf_profiles import netcdf_currents
+
+        return netcdf_currents(path)
+    if kind in (PD0, AD2CP):
+        from glidercli.ocean.adcp_file import adcp_currents
+
+        return adcp_currents(path, kind)
     table = parse_table(path, read_text(path, _ALLOWED), _ALLOWED)
+    _check_earth(table)
     return tuple(dataclasses.replace(_profile(part), moment=moment) for moment, part in parts(table))
 
 
@@ -81,29 +103,21 @@ def _profile(table: Table) -> CurrentProfile:
     missing = tuple(name for name in ("depth_m", _EAST, _NORTH) if name not in table)
     if missing:
         raise InputError(path, f"has no column {listed(missing)}; its columns are {listed(table.columns)}; {_ALLOWED}")
-    depth = table.increasing("depth_m", 0.0, _DEEPEST)
+    depth = table.increasing("depth_m", 0.0, DEEPEST)
     measured = [table.measured(name) for name in (_EAST, _NORTH, _UP) if name in table]
     east, north = measured[:2]
     up = measured[2] if _UP in table else np.zeros(len(table))
     velocity = np.stack([east, north, up])
 
-    gap = np.isnan(velocity).any(axis=0)
-    marked = np.isclose(velocity, _BAD_VELOCITY, rtol=0.0, atol=5e-4).any(axis=0) & ~gap
-    fast = (np.linalg.norm(velocity, axis=0) > _GREATEST_SPEED) & ~gap & ~marked
-    faults = (
-        ("gap (empty or NaN)", gap),
-        (f"bad-velocity mark {_BAD_VELOCITY}", marked),
-        (f"faster than {_GREATEST_SPEED:g} m/s", fast),
-    )
-    dropped = tuple((reason, int(bins.sum())) for reason, bins in faults if bins.any())
-    good = ~(gap | marked | fast)
+    good = np.ones(len(table), dtype=bool)
+    dropped = counted(_faults(velocity, "gap (empty or NaN)"), good)
     if not good.any():
         reasons = ", ".join(f"{count} {reason}" for reason, count in dropped)
         raise InputError(path, f"has no usable bin among {len(table)}: {reasons}; at least two are needed")
     if good.sum() < 2:
         line = table.lines[int(np.flatnonzero(good)[0])]
         raise InputError(path, f"line {line}: is the only usable bin of its profile; at least two are needed")
-    unknown = table.unknown((_EAST, _NORTH, _UP))
+    unknown = table.unknown((_EAST, _NORTH, _UP, *_FRAMES))
     warnings = left_out(dropped, len(table), "bins")
     if dropped and good.sum() > 1:
         widest = float(np.diff(depth[good]).max())
@@ -112,4 +126,59 @@ def _profile(table: Table) -> CurrentProfile:
     if unknown:
         warnings += (f"columns not known and not used: {listed(unknown)}",)
     profile = (depth[good], east[good], north[good], up[good])
-    return CurrentProfile(*profile, path, dropped, warnings, table.reconstructed)
+    return CurrentProfile(*profile, path, dropped, warnings, table.reconstructed, None, _own_moment(table))
+
+
+def _check_earth(table: Table) -> None:
+    """Refuse a table that says its velocities are not in the earth frame."""
+    for name in (name for name in _FRAMES if name in table):
+        for line, cell in zip(table.lines, table.cells[name], strict=True):
+            if cell.lower() not in ("", "earth", "enu"):
+                raise InputError(
+                    table.path, f"line {line}: {name} = {cell}: the current is not in the earth frame; allowed is earth"
+                )
+
+
+def profile_of(
+    path: Path, depth: Array, velocity: Array, inside: Mask, faults: Sequence[tuple[str, Mask]]
+) -> CurrentProfile | tuple[tuple[str, int], ...]:
+    """The profile of an instrument's bins by increasing depth; only what was left out where it has fewer than two.
+
+    depth : (n,), m. velocity : (2 or 3, n), m/s: east, north and perhaps up. inside : (n,), which bins there are.
+    faults : more that is wrong with bins, by reason, each (n,).
+    """
+    kept = inside.copy()
+    with np.errstate(invalid="ignore"):
+        outside = (depth < 0.0) | (depth > DEEPEST)
+    more = [("above the surface or deeper than any sea", outside)]
+    dropped = counted([*faults, *_faults(velocity, "gap"), *more], kept)
+    order = np.flatnonzero(kept)
+    order = order[np.argsort(depth[order], kind="stable")]
+    again = np.concatenate([[False], np.diff(depth[order]) == 0.0]) if len(order) else np.zeros(0, dtype=bool)
+    order = order[~again]
+    dropped += (("repeated depth", int(again.sum())),) if again.any() else ()
+    if len(order) < 2:
+        return (*dropped, ("in a profile of a single bin", 1)) if len(order) else dropped
+    up = velocity[2, order] if len(velocity) > 2 else np.zeros(len(order))
+    return CurrentProfile(depth[order], velocity[0, order], velocity[1, order], up, path, dropped, ())
+
+
+def _faults(velocity: Array, gap: str) -> list[tuple[str, Mask]]:
+    """What is wrong with bins, (2 or 3, n), by reason. gap : what an empty one is called."""
+    with np.errstate(invalid="ignore"):
+        return [
+            (gap, np.isnan(velocity).any(axis=0)),
+            (
+                f"bad-velocity mark {BAD_VELOCITY}",
+                np.isclose(velocity, BAD_VELOCITY, rtol=0.0, atol=5e-4).any(axis=0),
+            ),
+            (f"faster than {GREATEST_SPEED:g} m/s", np.linalg.norm(velocity, axis=0) > GREATEST_SPEED),
+        ]
+
+
+def _own_moment(table: Table) -> Moment | None:
+    """The time of the first row, where it can be read."""
+    if "time_utc" not in table:
+        return None
+    seconds = utc_seconds(table.cells["time_utc"][0])
+    return None if seconds is None else Moment(seconds, True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["DEEPEST_DBAR", "SALINITY", "TEMPERATURE", "Samples", "downcast"]
+__all__ = ["CONDUCTIVITY", "DEEPEST_DBAR", "DENSITY", "IN_AIR", "SALINITY", "TEMPERATURE", "Samples", "downcast"]
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -18,8 +18,13 @@ SALINITY = (0.0, 45.0)
 """Practical or absolute salinity allowed; PSS-78 ends at 42."""
 TEMPERATURE = (-3.0, 45.0)
 """In-situ temperature allowed, degC."""
+CONDUCTIVITY = (0.0, 10.0)
+"""Conductivity allowed, S/m; the saltiest warm sea has 7."""
+DENSITY = (990.0, 1100.0)
+"""In-situ density allowed, kg/m3: fresh water at 45 degC to brine in the deepest trench."""
 
-_AIR = 1e-3  # S/m; a cell in air reads 3e-4, mountain streams are above 2e-3
+IN_AIR = 1e-3
+"""S/m; a cell in air reads 3e-4, mountain streams are above 2e-3."""
 _FILLING = 1.05  # ratio from sample to sample while water enters the cell
 _SPIKE_REACH = 5  # samples to either side that a pressure is held against
 _SPIKE_STEPS = 10.0  # deviation, in ordinary steps, that no winch makes
@@ -120,7 +125,7 @@ def _spikes(pressure: Array, inside: Mask) -> Mask:
 
 def _in_air(conductivity: Array) -> Mask:
     """Where the cell holds air, or is still filling just after it did."""
-    out = conductivity < _AIR
+    out = conductivity < IN_AIR
     for last in np.flatnonzero(out[:-1] & ~out[1:]):
         i = last + 1
         while i + 1 < len(out) and conductivity[i + 1] > _FILLING * conductivity[i]:

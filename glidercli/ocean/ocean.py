@@ -155,8 +155,8 @@ def _times(profiles: Sequence[Cast | CurrentProfile], start_ns: int | None) -> l
         seconds = 0.0 if profile.moment is None else profile.moment.since(start_ns)
         if seconds is None:
             raise InputError(
-                profile.source, "its profiles have times in UTC, and the flight has none: start_time in a mission, or "
-                "elapsed_s in the table, is needed"
+                profile.source, "its profiles have times in UTC, and the flight has none: start_time in a mission, "
+                "--controls or --initial with a dated log, or elapsed_s in a table is needed"
             )  # fmt: skip
         times.append(seconds)
     return times

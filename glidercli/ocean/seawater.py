@@ -23,6 +23,8 @@ __all__ = [
     "practical_salinity",
     "pressure_from_depth",
     "t90_from_t68",
+    "temperature_from_conservative",
+    "temperature_from_potential",
 ]
 
 Array = NDArray[np.float64]
@@ -56,6 +58,21 @@ def conservative_temperature(absolute_salinity: ArrayLike, temperature: ArrayLik
     import gsw
 
     return np.asarray(gsw.CT_from_t(absolute_salinity, temperature, pressure_dbar), dtype=float)
+
+
+def temperature_from_conservative(absolute_salinity: ArrayLike, conservative: ArrayLike, pressure: ArrayLike) -> Array:
+    """t, degC, from SA in g/kg, CT in degC and p in dbar."""
+    import gsw
+
+    return np.asarray(gsw.t_from_CT(absolute_salinity, conservative, pressure), dtype=float)
+
+
+def temperature_from_potential(absolute_salinity: ArrayLike, potential: ArrayLike, pressure: ArrayLike) -> Array:
+    """t, degC, from SA in g/kg, potential temperature at the surface in degC and p in dbar."""
+    import gsw
+
+    conservative = gsw.CT_from_pt(absolute_salinity, potential)
+    return temperature_from_conservative(absolute_salinity, conservative, pressure)
 
 
 def density(absolute_salinity: ArrayLike, temperature: ArrayLike, pressure_dbar: ArrayLike) -> Array:

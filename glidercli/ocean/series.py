@@ -12,7 +12,7 @@ import numpy as np
 from glidercli.errors import InputError
 from glidercli.ocean.table import Table
 
-__all__ = ["Moment", "parts"]
+__all__ = ["Moment", "parts", "utc_seconds"]
 
 
 class Moment(NamedTuple):
@@ -27,6 +27,22 @@ class Moment(NamedTuple):
         if not self.is_utc:
             return self.seconds
         return None if start_ns is None else self.seconds - start_ns / 1e9
+
+    @property
+    def text(self) -> str:
+        """The time for a message."""
+        if not self.is_utc:
+            return f"{self.seconds:g} s"
+        return datetime.datetime.fromtimestamp(self.seconds, datetime.UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+def utc_seconds(text: str) -> float | None:
+    """Seconds since 1970 of a time in ISO 8601, in UTC where it names no zone; None of other text."""
+    try:
+        told = datetime.datetime.fromisoformat(text)
+    except ValueError:
+        return None
+    return (told if told.tzinfo else told.replace(tzinfo=datetime.UTC)).timestamp()
 
 
 def parts(table: Table) -> list[tuple[Moment | None, Table]]:
@@ -73,15 +89,15 @@ def _check_clocks(table: Table, rows: list[int], columns: list[str], seconds: li
 def _seconds(table: Table, column: str, row: int) -> float:
     """A cell as seconds: since the start, or since 1970."""
     cell = table.cells[column][row]
-    try:
-        if column == "elapsed_s":
+    seconds: float | None
+    if column == "elapsed_s":
+        try:
             seconds = float(cell)
-            if not math.isfinite(seconds):
-                raise ValueError
-            return seconds
-        told = datetime.datetime.fromisoformat(cell)
-    except ValueError:
+        except ValueError:
+            seconds = None
+    else:
+        seconds = utc_seconds(cell)
+    if seconds is None or not math.isfinite(seconds):
         needed = "a number of seconds" if column == "elapsed_s" else "ISO 8601, as 2011-07-20T04:28:00Z,"
-        what = f"line {table.lines[row]}: {column} = {cell or 'empty'}; {needed} is needed"
-        raise InputError(table.path, what) from None
-    return (told if told.tzinfo else told.replace(tzinfo=datetime.UTC)).timestamp()
+        raise InputError(table.path, f"line {table.lines[row]}: {column} = {cell or 'empty'}; {needed} is needed")
+    return seconds

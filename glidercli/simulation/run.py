@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -80,8 +80,8 @@ def simulate(
     trim: Mapping[str, Any] | None = None,
     controls: Log | None = None,
     initial: Log | None = None,
-    ctd: str | Path | None = None,
-    adcp: str | Path | None = None,
+    ctd: str | Path | Log | Sequence[str | Path | Log] | None = None,
+    adcp: str | Path | Log | Sequence[str | Path | Log] | None = None,
     duration: float | None = None,
     start_depth: float | None = None,
     latitude: float | None = None,
@@ -102,8 +102,9 @@ def simulate(
     net_buoyancy : kg, sinking positive. mass_position : m. mass_rotation : rad.
     trim : a trim in the contract's names: its controls are held, and the flight begins in its motion.
     controls : a log whose actuators are flown. initial : a log whose first depth sample the flight begins at.
-    ctd : cast of the water; without one the water is uniform at the vehicle's neutral density and net buoyancy acts
-        unchanged with depth. adcp : current by depth. Both default to the mission's.
+    ctd : cast of the water, a file or a log, or several in time; without one the water is uniform at the vehicle's
+        neutral density and net buoyancy acts unchanged with depth. adcp : current by depth, likewise. Both default to
+        the mission's.
     duration, every : s. start_depth : m. latitude : deg; sets gravity, 9.81 m/s2 without.
     rtol : relative tolerance of the integrator.
     equations : "full", or "paper": eq. (50) without the shear's own term, and the movable mass taken as unmoving.
@@ -123,8 +124,7 @@ def simulate(
         The motion cannot be integrated.
     """
     from glidercli.model.parameters import parameters
-    from glidercli.ocean.cast import read_casts
-    from glidercli.ocean.current import read_currents
+    from glidercli.ocean.gathering import gathered_casts, gathered_currents, sources
     from glidercli.ocean.ocean import Ocean
     from glidercli.simulation.mission_file import load_mission
     from glidercli.simulation.task import task
@@ -147,7 +147,8 @@ def simulate(
     if plan and plan[0].neutral_density_kg_m3:
         p = p._replace(rho_0=plan[0].neutral_density_kg_m3)
     _check_numbers(duration, start_depth, every, rtol)
-    water_files = [Path(item) for item in (ctd, adcp) if item]
+    water, flow = sources(ctd), sources(adcp)
+    water_files = [item for item in (*water, *flow) if isinstance(item, Path)]
     vehicle_files = [] if isinstance(vehicle, Vehicle) or not Path(vehicle).suffix else [Path(vehicle)]
     check_not_inputs(outputs, [*given_files, *vehicle_files, *water_files, *([plan[1]] if plan else [])])
     held = {"mass_position": mass_position, "mass_rotation": mass_rotation, "net_buoyancy": net_buoyancy}
@@ -161,9 +162,10 @@ def simulate(
     if latitude is None:
         latitude = plan[0].latitude if plan else wanted.place[0] if wanted.place else None
     with _for_mission(plan, asked, "ctd"):
-        casts = read_casts(ctd, latitude, wanted.place[1] if wanted.place else None) if ctd else ()
+        longitude = wanted.place[1] if wanted.place else None
+        casts = gathered_casts(water, latitude, longitude, wanted.start_ns)
     with _for_mission(plan, asked, "adcp"):
-        currents = read_currents(adcp) if adcp else ()
+        currents = gathered_currents(flow, wanted.start_ns)
     ocean = Ocean.build(
         p.rho_0, casts=casts, currents=currents, latitude=latitude, temperature_reference=p.T_0,
         start_ns=wanted.start_ns,

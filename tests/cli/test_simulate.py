@@ -84,11 +84,6 @@ def test_bad_profiles_are_one_line(glider: Run, tmp_path: Path, name: str, rows:
 
 
 @pytest.mark.parametrize("name", ["ctd", "adcp"])
-def test_two_files_are_wrong_usage(glider: Run, name: str) -> None:
-    one_line_error(glider("simulate", *CONTROLS, f"--{name}", "a", f"--{name}", "b"), f"--{name}", "2 times", code=2)
-
-
-@pytest.mark.parametrize("name", ["ctd", "adcp"])
 def test_files_that_are_none(glider: Run, tmp_path: Path, name: str) -> None:
     (tmp_path / "empty.csv").write_bytes(b"")
     (tmp_path / "binary.csv").write_bytes(bytes(range(256)) * 20)

@@ -307,7 +307,10 @@ def test_a_misspelt_column_is_named(write):
         ),
         ("depth_m,density_kg_m3\n1,\n,1025\n", "sample among 2: 1 without depth_m, 1 without density_kg_m3; at least"),
         (TABLE.replace(",15,35.2", ",,salty"), "line 3: salinity = 'salty', a number"),
-        (b"\x89PNG\r\n\x1a\n\0\0\0", "is not a text file; a CTD cast is a Sea-Bird .cnv file or a table"),
+        (
+            b"\x89PNG\r\n\x1a\n\0\0\0",
+            "is not a text file; a CTD cast is a Sea-Bird .cnv file, a NetCDF file or a table",
+        ),
     ],
 )
 def test_a_table_that_cannot_be_used(write, text, message):
