@@ -9,7 +9,6 @@ from glidercli.files import readable_file
 from glidercli.gzipped import is_gzip
 from glidercli.logio.netcdf.ioos import is_ioos, read_ioos
 from glidercli.logio.netcdf.og1 import is_og1, read_og1
-from glidercli.logio.netcdf.opening import is_netcdf, opened
 from glidercli.logio.own.csv_log import is_csv, read_csv
 from glidercli.logio.own.netcdf_back import is_own_netcdf, read_own_netcdf
 from glidercli.logio.own.parquet_back import is_own_parquet, read_own_parquet
@@ -18,6 +17,7 @@ from glidercli.logio.seaexplorer import is_seaexplorer, read_seaexplorer
 from glidercli.logio.seaglider import is_seaglider, read_seaglider
 from glidercli.logio.slocum import is_slocum, read_slocum
 from glidercli.logio.tables import ENDINGS, is_table, read_table
+from glidercli.netcdf_opening import is_netcdf, opened
 
 __all__ = ["FORMATS", "check_format", "format_of", "read_file", "unrecognised"]
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from glidercli.errors import InputError
 from glidercli.files import readable_file
+from glidercli.netcdf_opening import dataset
 from glidercli.ocean.source import listed
 
 __all__ = ["QUANTITIES", "NcFile", "opened"]
@@ -119,14 +120,12 @@ _BAD_BY_NUMBER = (b"3", b"4", 3, 4)  # Argo and OceanSITES, reference table 2: p
 @contextlib.contextmanager
 def opened(path: Path) -> Iterator[NcFile]:
     """A NetCDF file; InputError where it, or a part that is asked for, cannot be read."""
-    import netCDF4
-
     readable_file(path)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # attributes that do not fit; what they would have masked is checked here
-            with netCDF4.Dataset(path) as dataset:
-                yield NcFile(path, dataset)
+            with dataset(path) as file:
+                yield NcFile(path, file)
     except (OSError, RuntimeError, ValueError, OverflowError) as error:
         raise InputError(path, f"is a NetCDF file that cannot be read: {' '.join(str(error).split())}") from None
 

@@ -20,7 +20,6 @@ import numpy as np
 
 from glidercli.errors import InputError
 from glidercli.log import Event
-from glidercli.logio.netcdf.opening import holds, opened, rows_of
 from glidercli.logio.netcdf.pyglider import NOTE, is_pyglider, mended
 from glidercli.logio.netcdf.times import times_of
 from glidercli.logio.netcdf.trajectory import Positions, Rows, found_in, part_of
@@ -28,6 +27,7 @@ from glidercli.logio.netcdf.variables import attributes, flags_of, text_of, valu
 from glidercli.logio.netcdf.vocabulary import STANDARD_NAMES
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import NO_TIME
+from glidercli.netcdf_opening import holds, opened, rows_of
 
 __all__ = ["is_ioos", "read_ioos"]
 

@@ -21,7 +21,6 @@ import numpy as np
 
 from glidercli.channels import PHASES
 from glidercli.errors import InputError
-from glidercli.logio.netcdf.opening import holds, opened, rows_of
 from glidercli.logio.netcdf.pyglider import NOTE, is_pyglider, mended
 from glidercli.logio.netcdf.times import times_of
 from glidercli.logio.netcdf.trajectory import Positions, Rows, found_in, part_of
@@ -29,6 +28,7 @@ from glidercli.logio.netcdf.variables import Values, attributes, text_of, values
 from glidercli.logio.netcdf.vocabulary import STANDARD_NAMES
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import NO_TIME
+from glidercli.netcdf_opening import holds, opened, rows_of
 
 __all__ = ["is_og1", "read_og1"]
 

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import InputError
 from glidercli.log import Channel, Log, Origin
-from glidercli.logio.netcdf.opening import DAMAGED, holds, opened, rows_of
 from glidercli.logio.netcdf.times import times_of
 from glidercli.logio.own.csv_metadata import events_of, parsed_metadata, texts_of
 from glidercli.logio.own.netcdf_log import EXACT_TIME, METADATA_ATTRIBUTE
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import sampled
 from glidercli.logio.report import FileReport
+from glidercli.netcdf_opening import DAMAGED, holds, opened, rows_of
 
 __all__ = ["is_own_netcdf", "read_own_netcdf", "read_own_netcdf_log"]
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from glidercli.errors import InputError
 
-__all__ = ["DAMAGED", "holds", "is_netcdf", "opened", "rows_of"]
+__all__ = ["DAMAGED", "dataset", "holds", "is_netcdf", "opened", "rows_of"]
 
 MAGIC = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
 """How the files start: NetCDF classic, 64-bit offset and data, and HDF5 (NetCDF Users' Guide, file format)."""
@@ -64,7 +64,8 @@ def _opens(path: Path, changed_ns: int, size: int) -> bool:
     return False
 
 
-def _dataset(path: Path) -> Any:
+def dataset(path: Path) -> Any:
+    """The netCDF4.Dataset of a file, to be closed; OSError where the library cannot open it, or never ends to."""
     import netCDF4
 
     state = path.stat()
@@ -79,7 +80,7 @@ def opened(path: Path) -> Iterator[Any]:
     if not is_netcdf(path):
         raise InputError(path, "is no NetCDF file: it does not start with the bytes of one")
     try:
-        with _dataset(path) as file:
+        with dataset(path) as file:
             file.set_auto_maskandscale(False)
             file.set_auto_chartostring(False)
             yield file
