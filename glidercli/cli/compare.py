@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from glidercli.cli.options import Debug, Force, Json, Quiet, output_option
+from glidercli.cli.logs_in import LogSource
+from glidercli.cli.options import CacheOption, ColumnsOption, Debug, Force, Json, Quiet, output_option
 
 if TYPE_CHECKING:
     from glidercli.compare import Facts
@@ -41,6 +42,8 @@ def compare(
     channels: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="Channel or quoted pattern (mass_*); may repeat.")
     ] = None,
+    cache: CacheOption = None,
+    columns: ColumnsOption = None,
     output: Annotated[list[Path] | None, output_option(".csv .json .png .svg .pdf")] = None,
     force: Force = False,
     json: Json = False,
@@ -68,6 +71,7 @@ def compare(
     files = [path for path in output or [] if path != Path("-")]
     check_outputs(files, SUFFIXES, force)
 
+    source = LogSource(cache, columns)
     with progress("reading", "", quiet) as bar:
         facts = _facts_file(measured)
         inputs: list[Path] = []
@@ -80,8 +84,8 @@ def compare(
             if align != Align.NONE or offset:
                 warn(["--align and --offset have no effect on a comparison with published values"], quiet)
         else:
-            against = _log(measured, inputs, quiet)
-        logs = [_log(name, inputs, quiet) for name in simulated]
+            against = _log(measured, source, inputs, quiet)
+        logs = [_log(name, source, inputs, quiet) for name in simulated]
         bar.stage("comparing")
         check_not_inputs(files, inputs)
         comparison = compared(
@@ -116,12 +120,11 @@ def _facts_file(text: str) -> Path | None:
     return None if folder is None else readable_file(folder / "facts.toml")
 
 
-def _log(text: str, inputs: list[Path], quiet: bool) -> Log:
+def _log(text: str, source: LogSource, inputs: list[Path], quiet: bool) -> Log:
     """Read one log; its files join the inputs."""
     from glidercli.cli.printing import warn
-    from glidercli.logio import read
 
-    reading = read([text])
+    reading = source.reading(text)
     inputs += [Path(file.path) for file in reading.files]
     for file in reading.files:
         lost = ", ".join(f"{count} {reason}" for reason, count in file.dropped)

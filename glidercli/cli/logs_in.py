@@ -6,15 +6,37 @@ import dataclasses
 import os
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from glidercli.log import Log
+if TYPE_CHECKING:
+    from glidercli.log import Log
+    from glidercli.logio import Reading
 
-__all__ = ["LogsIn", "cores", "read_logs"]
+__all__ = ["LogSource", "LogsIn", "cores", "read_logs"]
 
 
 def cores() -> int:
     """Processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+class LogSource:
+    """Reads the LOGs of a command, each once.
+
+    cache : folder of Slocum caches. columns : TOML that maps the columns of plain tables.
+    """
+
+    def __init__(self, cache: Path | None = None, columns: Path | None = None) -> None:
+        self._cache, self._columns = cache, columns
+        self._readings: dict[str, Reading] = {}
+
+    def reading(self, path: str) -> Reading:
+        """What a LOG, a file, a folder or a quoted glob, gives."""
+        from glidercli.logio import read
+
+        if path not in self._readings:
+            self._readings[path] = read([path], cache=self._cache, columns=self._columns, workers=cores())
+        return self._readings[path]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -26,14 +48,10 @@ class LogsIn:
     warnings: list[str]
 
 
-def read_logs(wanted: Mapping[str, str | None]) -> LogsIn:
-    """Read the logs of some options, each path once; an option without one has none."""
+def read_logs(wanted: Mapping[str, str | None], source: LogSource) -> LogsIn:
+    """The logs of some options; an option without one has none."""
     given = {option: path for option, path in wanted.items() if path is not None}
-    if not given:
-        return LogsIn({}, [], [])
-    from glidercli.logio import read
-
-    readings = {path: read([path], workers=cores()) for path in dict.fromkeys(given.values())}
+    readings = {path: source.reading(path) for path in dict.fromkeys(given.values())}
     reports = [report for reading in readings.values() for report in reading.files]
     warnings = [f"{report.path}: {line}" for report in reports for line in report.warnings]
     warnings += [f"{report.path}: {report.error}" for report in reports if report.error]

@@ -8,7 +8,17 @@ from typing import Annotated, Any
 
 import typer
 
-from glidercli.cli.options import Debug, Equations, EquationsOption, Force, Json, Quiet, output_option
+from glidercli.cli.options import (
+    CacheOption,
+    ColumnsOption,
+    Debug,
+    Equations,
+    EquationsOption,
+    Force,
+    Json,
+    Quiet,
+    output_option,
+)
 
 _MOST_EVENTS = 40  # lines of the summary
 
@@ -55,6 +65,8 @@ def simulate(
         ),
     ] = None,
     equations: EquationsOption = Equations.FULL,
+    cache: CacheOption = None,
+    columns: ColumnsOption = None,
     output: Annotated[list[Path] | None, output_option(".mcap .rrd .nc .parquet .csv .png .svg .pdf")] = None,
     force: Force = False,
     json: Json = False,
@@ -62,7 +74,7 @@ def simulate(
     debug: Debug = False,
 ) -> None:
     """Full dynamics through measured water and current: a mission, held controls, or recorded ones."""
-    from glidercli.cli.logs_in import read_logs
+    from glidercli.cli.logs_in import LogSource, read_logs
     from glidercli.cli.outputs import check_log_outputs, log_sink
     from glidercli.cli.printing import json_text, warn
     from glidercli.cli.progress import progress
@@ -74,8 +86,9 @@ def simulate(
 
     outputs = output or []
     check_log_outputs(outputs, force, json, pictures=True)
-    water, flow = read_water(ctd), read_water(adcp)
-    logs = read_logs({"controls": controls, "initial": initial})
+    source = LogSource(cache, columns)
+    water, flow = read_water(ctd, source), read_water(adcp, source)
+    logs = read_logs({"controls": controls, "initial": initial}, source)
     first = None if trim is None else read_trim(trim)
     files = [*logs.files, *([trim] if trim and str(trim) != "-" else []), *water.files, *flow.files]
     tell_of_compiling(lambda name: _say_compiling(name, quiet))

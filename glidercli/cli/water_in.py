@@ -7,6 +7,7 @@ import glob
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from glidercli.cli.logs_in import LogSource, read_logs
 from glidercli.errors import InputError
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ class WaterIn:
     warnings: list[str]
 
 
-def read_water(given: list[Path] | None) -> WaterIn:
+def read_water(given: list[Path] | None, source: LogSource) -> WaterIn:
     """What the values of one option name: profiles are left to the simulation, logs are read."""
     found = WaterIn([], [], [])
     for path in given or ():
@@ -35,7 +36,7 @@ def read_water(given: list[Path] | None) -> WaterIn:
         elif len(files) == 1 and not path.is_dir() and not _is_log(files[0]):
             found.sources.append(files[0])  # its reader says what is wrong with it
         else:
-            _read_log(path, found)
+            _read_log(path, found, source)
     return found
 
 
@@ -77,10 +78,8 @@ def _all_readable(files: list[Path], profiles: list[Path]) -> list[Path]:
     return profiles
 
 
-def _read_log(path: Path, found: WaterIn) -> None:
-    from glidercli.cli.logs_in import read_logs
-
-    logs = read_logs({"log": str(path)})
+def _read_log(path: Path, found: WaterIn, source: LogSource) -> None:
+    logs = read_logs({"log": str(path)}, source)
     found.sources.append(logs.read["log"])
     found.files.extend(logs.files)
     found.warnings.extend(logs.warnings)

@@ -65,6 +65,9 @@ def controls_of(
             held[name] = float(given[name] or 0.0)
     if not tables:
         raise InputError(source_of(log), f"has no actuator channel; needed is one of {', '.join(CONTROLS)}")
+    platform = log.metadata.get("platform", "")
+    if platform and vehicle.name.lower() not in platform.lower():
+        warnings.append(f"controls: {platform} recorded them, {vehicle.name} flies them: no twin of that flight")
     if "mass_position_zero" in log.metadata and "mass_position" in tables:
         nominal = vehicle.actuators.mass_position.nominal
         tables["mass_position"] = (tables["mass_position"][0], tables["mass_position"][1] + nominal)

@@ -120,7 +120,9 @@ class Gathering:
         events = tuple(sorted(self.events, key=lambda event: event.time_ns))
         log = Log(channels, "measured", dive.metadata() | self.metadata | NOTES, events)
         recordings = tuple(f"{dive.name}.{ending}" for ending in holds) if dive.name else ()
-        return Part(log, report, record_ns, dive.name, recordings, **more)  # type: ignore[arg-type]
+        beside = {("eng",): "log", ("log",): "eng"}.get(holds)
+        partner = f"{dive.name}.{beside}" if beside and dive.name else ""
+        return Part(log, report, record_ns, dive.name, recordings, partner=partner, **more)  # type: ignore[arg-type]
 
 
 def _merged(name: str, channels: list[Channel]) -> Channel:

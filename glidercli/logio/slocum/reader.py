@@ -95,6 +95,7 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
         holds=(f"{recording} {kind}",),
         fullness=fullness,
         yields=RELAYED if kind == NAVIGATION else frozenset(),
+        partner=f"{recording} {SCIENCE if kind == NAVIGATION else NAVIGATION}",
     )
 
 
