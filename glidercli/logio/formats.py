@@ -36,12 +36,12 @@ def _read_mcap(path: Path, aids: Aids) -> Part:
 
 FORMATS: dict[str, Format] = {
     "glider-mcap": Format(_is_mcap, _read_mcap, own=True),
+    "seaglider": Format(is_seaglider, read_seaglider),  # first of those in NetCDF: it need not open a file
     "glider-nc": Format(is_own_netcdf, read_own_netcdf, own=True),
     "glider-parquet": Format(is_own_parquet, read_own_parquet, own=True),
     "og1": Format(is_og1, read_og1),
     "ioos": Format(is_ioos, read_ioos),
     "seaexplorer": Format(is_seaexplorer, read_seaexplorer),
-    "seaglider": Format(is_seaglider, read_seaglider),
     "slocum": Format(is_slocum, read_slocum),
     "glider-csv": Format(is_csv, read_csv, own=True),
     "table": Format(is_table, read_table),

@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 CLASSIC, HDF5, GZIP = b"CDF", b"\x89HDF\r\n\x1a\n", b"\x1f\x8b"
 LARGEST = 128 * 2**20
 """Bytes of a file, unpacked, and of one variable, at most; those of a dive are a few MB."""
+OG1 = b"N_MEASUREMENTS"
+"""The dimension of what was made of a dive for OceanGliders 1.0."""
 MARKS = (b"sg_data_point", b"gc_event")
 """Dimensions that a basestation's file of a dive has; their names stand in both formats as plain text."""
 
@@ -49,7 +51,7 @@ def begin_of(head: bytes) -> bytes:
 
 def is_netcdf(data: bytes) -> bool:
     """Whether bytes are a .nc with the dimensions of a Seaglider's dive."""
-    return data.startswith((CLASSIC, HDF5)) and any(mark in data for mark in MARKS)
+    return data.startswith((CLASSIC, HDF5)) and any(mark in data for mark in MARKS) and OG1 not in data
 
 
 class NetcdfFile:
