@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from glidercli.log import Channel, Origin
 from glidercli.units import DBAR
 
-__all__ = ["Quantity", "channel_of", "submerged", "without_sentinels"]
+__all__ = ["Quantity", "channel_of", "channels_from", "submerged", "without_sentinels"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -59,6 +60,28 @@ def channel_of(
         )
     times = time_ns if inside.all() else time_ns[inside]  # shared, not copied, where nothing is left out
     return Channel(quantity.channel, times, values[inside] * quantity.factor, origin)
+
+
+def channels_from(
+    time_ns: Times, columns: Mapping[str, Array], quantities: Mapping[str, Quantity], warnings: list[str]
+) -> dict[str, Channel]:
+    """The channels of recorded columns, by name, in the order of ``quantities``.
+
+    Where several give one channel the first that has a sample does; the others are counted. Conductivity counts under
+    water alone.
+    """
+    found: dict[str, Channel] = {}
+    for name, quantity in quantities.items():
+        if name not in columns:
+            continue
+        channel = channel_of(name, time_ns, columns[name], quantity, warnings)
+        if len(channel) and channel.name in found:
+            warnings.append(f"{name}: {len(channel)} values left out, another column gives {channel.name}")
+        elif len(channel):
+            found[channel.name] = channel
+    if "conductivity" in found:
+        found["conductivity"] = submerged(found["conductivity"], found.get("pressure"), warnings)
+    return found
 
 
 def submerged(conductivity: Channel, pressure: Channel | None, warnings: list[str]) -> Channel:

@@ -224,7 +224,7 @@ def test_a_second_ctd_is_not_mixed_with_the_first(tmp_path: Path) -> None:
     head = "PLD_REALTIMECLOCK;GPCTD_TEMPERATURE;LEGATO_TEMPERATURE;"
     log, report = read_one(write(tmp_path, "21/07/2019 10:00:00;5;6;", head=head))
     assert log["temperature"].values.tolist() == [5.0]
-    assert report.warnings == ("LEGATO_TEMPERATURE: 1 values left out, another CTD gives temperature",)
+    assert report.warnings == ("LEGATO_TEMPERATURE: 1 values left out, another column gives temperature",)
 
 
 def test_bytes_that_are_no_text_make_no_extra_records(tmp_path: Path) -> None:

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from glidercli.channels import PHASES
 from glidercli.log import Channel
-from glidercli.logio.quantities import Quantity, channel_of, submerged, without_sentinels
+from glidercli.logio.quantities import Quantity, channels_from, without_sentinels
 from glidercli.units import CM3, DBAR, DEGREE, MILLIMETRE
 
 __all__ = ["NOTES", "SENTINELS", "channels_of"]
@@ -79,18 +79,7 @@ def channels_of(time_ns: Times, table: Mapping[str, Array]) -> tuple[list[Channe
         if name in table
     }
     _without_zeros(used, warnings)
-    found: dict[str, Channel] = {}
-    for name, column in COLUMNS.items():
-        if name not in used:
-            continue
-        channel = channel_of(name, time_ns, used[name], column, warnings)
-        if len(channel) and column.channel in found:
-            warnings.append(f"{name}: {len(channel)} values left out, another CTD gives {column.channel}")
-        elif len(channel):
-            found[column.channel] = channel
-    if "conductivity" in found:
-        found["conductivity"] = submerged(found["conductivity"], found.get("pressure"), warnings)
-    channels = list(found.values())
+    channels = list(channels_from(time_ns, used, COLUMNS, warnings).values())
     if "NavState" in used:
         channels.append(_phase(time_ns, used["NavState"], warnings))
     if {"NavState", "Lat", "Lon"} <= used.keys():

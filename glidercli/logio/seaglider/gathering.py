@@ -120,7 +120,7 @@ class Gathering:
         events = tuple(sorted(self.events, key=lambda event: event.time_ns))
         log = Log(channels, "measured", dive.metadata() | self.metadata | NOTES, events)
         recordings = tuple(f"{dive.name}.{ending}" for ending in holds) if dive.name else ()
-        beside = {("eng",): "log", ("log",): "eng"}.get(holds)
+        beside = {"eng": "log", "log": "eng"}.get(holds[0]) if len(holds) == 1 else None
         partner = f"{dive.name}.{beside}" if beside and dive.name else ""
         return Part(log, report, record_ns, dive.name, recordings, partner=partner, **more)  # type: ignore[arg-type]
 

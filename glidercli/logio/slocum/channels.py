@@ -30,7 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.log import Channel
-from glidercli.logio.quantities import Quantity, channel_of, submerged, without_sentinels
+from glidercli.logio.quantities import Quantity, channels_from, without_sentinels
 from glidercli.units import BAR, CM3, INCH
 
 __all__ = ["RELAYED", "USED", "Column", "channels_of"]
@@ -88,15 +88,7 @@ def channels_of(time_ns: Times, columns: Mapping[str, Column]) -> tuple[list[Cha
     warnings: list[str] = []
     used = {name: without_sentinels(name, columns[name].sampled, (), warnings) for name in SENSORS if name in columns}
     _without_idle_ctd(used, warnings)
-    found: dict[str, Channel] = {}
-    for name, values in used.items():
-        channel = channel_of(name, time_ns, values, SENSORS[name], warnings)
-        if len(channel) and channel.name in found:
-            warnings.append(f"{name}: {len(channel)} values left out, another sensor gives {channel.name}")
-        elif len(channel):
-            found[channel.name] = channel
-    if "conductivity" in found:
-        found["conductivity"] = submerged(found["conductivity"], found.get("pressure"), warnings)
+    found = channels_from(time_ns, used, SENSORS, warnings)
     notes = {key: text for name in found for key, text in NOTES.get(name, {}).items()}
     if "heading" in found:
         found["heading"], notes["heading_note"] = _true(found["heading"], time_ns, columns.get(VARIATION), warnings)
