@@ -10,12 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
-from glidercli.files import readable_file
 from glidercli.ocean import seawater
 from glidercli.ocean.cnv import is_cnv, parse_cnv
 from glidercli.ocean.doubts import doubts
 from glidercli.ocean.downcast import CONDUCTIVITY, DEEPEST_DBAR, DENSITY, SALINITY, TEMPERATURE, downcast
-from glidercli.ocean.kind import NETCDF, TEXT, kind_of
 from glidercli.ocean.place import Place
 from glidercli.ocean.profile import wide_gaps
 from glidercli.ocean.seabird import PRESSURE, samples
@@ -23,7 +21,7 @@ from glidercli.ocean.series import Moment, parts
 from glidercli.ocean.source import left_out, listed, read_text
 from glidercli.ocean.table import Table, parse_table
 
-__all__ = ["Cast", "read_casts", "read_ctd"]
+__all__ = ["EXPECTED", "Cast", "read_ctd", "text_casts"]
 
 Array = NDArray[np.float64]
 
@@ -31,7 +29,7 @@ _CSV_COLUMNS = (
     "depth_m or pressure_dbar; temperature_degC with salinity, absolute_salinity_g_kg or conductivity_S_m, or "
     "density_kg_m3; and, if known, latitude_deg, longitude_deg, time_utc"
 )
-_EXPECTED = f"a CTD cast is a Sea-Bird .cnv file, a NetCDF file or a table with the columns {_CSV_COLUMNS}"
+EXPECTED = f"a CTD cast is a Sea-Bird .cnv file, a NetCDF file or a table with the columns {_CSV_COLUMNS}"
 _SALT = ("salinity", "absolute_salinity_g_kg", "conductivity_S_m")
 _NEEDED = ("depth_m", "pressure_dbar", "temperature_degC", *_SALT, "density_kg_m3")
 _USED = (*_NEEDED, "latitude_deg", "longitude_deg")
@@ -76,23 +74,14 @@ class Cast:
         return len(self.depth) + sum(count for _, count in self.dropped)
 
 
-def read_casts(path: str | Path, latitude: float | None = None, longitude: float | None = None) -> tuple[Cast, ...]:
-    """The casts of a file: of a table one for each time that several rows share, see ``read_ctd``; of a NetCDF file
-    those that it holds."""
-    path = Path(path)
-    kind = kind_of(readable_file(path))
-    if kind == NETCDF:
-        from glidercli.ocean.netcdf_profiles import netcdf_casts
-
-        return netcdf_casts(path, latitude, longitude)
-    if kind != TEXT:
-        raise InputError(path, f"is a {kind} file, which holds current, not water; {_EXPECTED}")
-    text = read_text(path, _EXPECTED)
+def text_casts(path: Path, latitude: float | None, longitude: float | None) -> tuple[Cast, ...]:
+    """The casts of a text: of a .cnv one, of a table one for each time that several rows share; see ``read_ctd``."""
+    text = read_text(path, EXPECTED)
     if is_cnv(text):
         return (read_ctd(path, latitude, longitude),)
     if latitude is not None:
         seawater.checked_latitude(latitude)
-    table = parse_table(path, text, _EXPECTED)
+    table = parse_table(path, text, EXPECTED)
     return tuple(
         dataclasses.replace(_from_table(part, latitude, longitude), moment=moment) for moment, part in parts(table)
     )
@@ -117,10 +106,10 @@ def read_ctd(path: str | Path, latitude: float | None = None, longitude: float |
     path = Path(path)
     if latitude is not None:
         seawater.checked_latitude(latitude)
-    text = read_text(path, _EXPECTED)
+    text = read_text(path, EXPECTED)
     if is_cnv(text):
         return _from_cnv(path, text, latitude, longitude)
-    return _from_table(parse_table(path, text, _EXPECTED), latitude, longitude)
+    return _from_table(parse_table(path, text, EXPECTED), latitude, longitude)
 
 
 def _from_cnv(path: Path, text: str, latitude: float | None, longitude: float | None) -> Cast:

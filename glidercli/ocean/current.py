@@ -11,15 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
-from glidercli.files import readable_file
 from glidercli.ocean.counting import counted
-from glidercli.ocean.kind import AD2CP, NETCDF, PD0, kind_of
 from glidercli.ocean.profile import wide_gaps
 from glidercli.ocean.series import Moment, parts, utc_seconds
 from glidercli.ocean.source import left_out, listed, read_text
 from glidercli.ocean.table import Table, parse_table
 
-__all__ = ["BAD_VELOCITY", "DEEPEST", "GREATEST_SPEED", "CurrentProfile", "profile_of", "read_adcp", "read_currents"]
+__all__ = ["BAD_VELOCITY", "DEEPEST", "GREATEST_SPEED", "CurrentProfile", "profile_of", "read_adcp", "table_currents"]
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -65,19 +63,8 @@ class CurrentProfile:
         return len(self.depth) + sum(count for _, count in self.dropped)
 
 
-def read_currents(path: str | Path) -> tuple[CurrentProfile, ...]:
-    """The current profiles of a file: of a table one for each time that several rows share, see ``read_adcp``; of a
-    NetCDF file or an ADCP's binary those that it holds."""
-    path = Path(path)
-    kind = kind_of(readable_file(path))
-    if kind == NETCDF:
-        from glidercli.ocean.netcdf_profiles import netcdf_currents
-
-        return netcdf_currents(path)
-    if kind in (PD0, AD2CP):
-        from glidercli.ocean.adcp_file import adcp_currents
-
-        return adcp_currents(path, kind)
+def table_currents(path: Path) -> tuple[CurrentProfile, ...]:
+    """The current profiles of a table, one for each time that several rows share; see ``read_adcp``."""
     table = parse_table(path, read_text(path, _ALLOWED), _ALLOWED)
     _check_earth(table)
     return tuple(dataclasses.replace(_profile(part), moment=moment) for moment, part in parts(table))

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, TypeVar
 
 from glidercli.errors import InputError
 from glidercli.log import Log
-from glidercli.ocean.cast import Cast, read_casts
-from glidercli.ocean.current import CurrentProfile, read_currents
+from glidercli.ocean.cast import Cast
+from glidercli.ocean.current import CurrentProfile
 from glidercli.ocean.series import Moment, utc_seconds
+from glidercli.ocean.water_file import read_casts, read_currents
 
 if TYPE_CHECKING:
     import os

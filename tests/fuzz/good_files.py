@@ -14,8 +14,7 @@ import numpy as np
 from glidercli.logio import read, write
 from glidercli.logio.formats import format_of, read_file
 from glidercli.logio.reader import Aids
-from glidercli.ocean.cast import read_casts
-from glidercli.ocean.current import read_currents
+from glidercli.ocean.water_file import read_casts, read_currents
 
 Samples = dict[str, dict[int, float]]
 

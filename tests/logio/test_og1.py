@@ -13,12 +13,12 @@ import pytest
 import xarray as xr
 from conftest import ROOT
 
+from glidercli import netcdf_opening as opening
 from glidercli.channels import PHASES
 from glidercli.errors import InputError
 from glidercli.log import Log
 from glidercli.logio import read
 from glidercli.logio.named_units import conversion
-from glidercli.logio.netcdf import opening
 from glidercli.logio.netcdf.og1 import is_og1, read_og1
 from glidercli.logio.report import FileReport
 

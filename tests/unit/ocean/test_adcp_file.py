@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from glidercli.errors import InputError
-from glidercli.ocean.current import read_currents
+from glidercli.ocean.water_file import read_currents
 
 from .pd0 import ensembles, in_frame
 

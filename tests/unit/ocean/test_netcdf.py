@@ -13,9 +13,8 @@ import pytest
 import xarray as xr
 
 from glidercli.errors import InputError
-from glidercli.ocean.cast import read_casts
-from glidercli.ocean.current import read_currents
 from glidercli.ocean.kind import holds_profiles
+from glidercli.ocean.water_file import read_casts, read_currents
 
 Z = np.array([5.0, 10.0, 20.0, 50.0, 100.0])
 T = np.array([[20.0, 19.0, 15.0, 10.0, 8.0], [21.0, 19.5, 15.5, 10.0, 8.0], [22.0, 20.0, 16.0, 10.0, 8.0]])
