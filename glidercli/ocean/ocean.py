@@ -14,6 +14,7 @@ from glidercli.ocean import seawater
 from glidercli.ocean.cast import Cast
 from glidercli.ocean.current import CurrentProfile
 from glidercli.ocean.profile import Profile, in_time, pchip
+from glidercli.ocean.reaching import Knots, completed
 from glidercli.ocean.water import Sea, Water, at_depth
 from glidercli.units import DBAR, STANDARD_GRAVITY
 
@@ -93,16 +94,22 @@ class Ocean:
         currents = (currents,) if isinstance(currents, CurrentProfile) else tuple(currents)
         measured = bool(casts) and all(cast.temperature is not None for cast in casts)
         water = [_water(cast, temperature_reference if not measured else None) for cast in casts]
-        flow = [pchip(c.depth, np.stack([c.north, c.east, -c.up], axis=1)) for c in currents]
+        flow = [(c.depth, np.stack([c.north, c.east, -c.up], axis=1)) for c in currents]
         given: list[Cast | CurrentProfile] = [*casts, *currents]
         return cls(
-            water=in_time(_times(casts, start_ns), water) if casts else still.water,
-            current=in_time(_times(currents, start_ns), flow) if currents else still.current,
+            water=_in_time(_times(casts, start_ns), water) if casts else still.water,
+            current=_in_time(_times(currents, start_ns), flow) if currents else still.current,
             gravity=gravity,
             stratified=bool(casts),
             has_temperature=measured,
             moving=bool(currents),
-            warnings=_once(tuple(f"{item.source}: {line}" for item in given for line in item.warnings)),
+            warnings=_once(
+                (
+                    *(f"{item.source}: {line}" for item in given for line in item.warnings),
+                    *_short("casts", casts),
+                    *_short("current profiles", currents),
+                )
+            ),
             inputs=tuple(dict.fromkeys(item.source for item in given)),
             reconstructed=tuple(dict.fromkeys(item.source for item in given if item.reconstructed)),
         )
@@ -140,12 +147,28 @@ class Ocean:
         return warnings
 
 
-def _water(cast: Cast, reference: float | None) -> Profile:
+def _in_time(times: list[float], profiles: list[Knots]) -> Profile:
+    """Profiles of some times, each continued by the others to where they reach."""
+    return in_time(times, [pchip(*profile) for profile in completed(times, profiles)])
+
+
+def _short(what: str, profiles: Sequence[Cast | CurrentProfile]) -> tuple[str, ...]:
+    """A line where some of several profiles end far above the others."""
+    ends = np.array([profile.depth[-1] for profile in profiles])
+    short = int((ends < 0.9 * ends.max(initial=0.0)).sum())
+    return (
+        (f"{short} of {len(ends)} {what} end above {0.9 * ends.max():.0f} m; below their ends those that reach hold",)
+        if short
+        else ()
+    )
+
+
+def _water(cast: Cast, reference: float | None) -> Knots:
     """Density, pressure and temperature of a cast; a reference temperature where it is not None."""
     temperature = cast.temperature
     if temperature is None or reference is not None:
         temperature = np.full(len(cast.depth), reference)
-    return pchip(cast.depth, np.stack([cast.density, cast.pressure_dbar * DBAR, temperature], axis=1))
+    return cast.depth, np.stack([cast.density, cast.pressure_dbar * DBAR, temperature], axis=1)
 
 
 def _times(profiles: Sequence[Cast | CurrentProfile], start_ns: int | None) -> list[float]:

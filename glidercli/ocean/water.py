@@ -49,12 +49,13 @@ class Sea(NamedTuple):
 def at_depth(sea: Sea, z: float, t: float) -> Water:
     """The water at depth z, m, positive down, and time t, s.
 
-    Monotone cubic in depth between samples, linear in time between profiles, end values held beyond both.
+    Monotone cubic in depth between samples, linear in time between profiles, end values held beyond both, but for
+    pressure, which goes on with the weight of the water.
     """
     number, share = moment(sea.water, t)
-    density, pressure, temperature = _density(sea.water, number, z)
+    density, pressure, temperature = _density(sea, number, z)
     if share > 0.0:
-        later = _density(sea.water, number + 1, z)
+        later = _density(sea, number + 1, z)
         density += share * (later[0] - density)
         pressure += share * (later[1] - pressure)
         temperature += share * (later[2] - temperature)
@@ -71,10 +72,14 @@ def at_depth(sea: Sea, z: float, t: float) -> Water:
 
 
 @kernel
-def _density(water: Profile, number: int, z: float) -> tuple[float, float, float]:
-    """Density, pressure and temperature of one profile at a depth, m."""
-    i, x, _ = locate(water, number, z)
-    return cubic(water, i, x, DENSITY), cubic(water, i, x, PRESSURE), cubic(water, i, x, TEMPERATURE)
+def _density(sea: Sea, number: int, z: float) -> tuple[float, float, float]:
+    """Density, pressure and temperature of one profile at a depth, m; beyond its ends pressure is hydrostatic."""
+    water = sea.water
+    i, x, beyond = locate(water, number, z)
+    density, pressure = cubic(water, i, x, DENSITY), cubic(water, i, x, PRESSURE)
+    if beyond and water.first[number + 1] - water.first[number] > 1:  # one sample alone is uniform water
+        pressure += density * sea.gravity * (z - water.depth[i])
+    return density, pressure, cubic(water, i, x, TEMPERATURE)
 
 
 @kernel
