@@ -187,7 +187,7 @@ def test_centres_of_roll_differ_on_dive_and_climb() -> None:
 
 @pytest.mark.parametrize("path", NCS, ids=lambda path: path.stem)
 def test_drift_and_current_are_near_those_of_the_basestation(path: Path) -> None:
-    """The basestation reckons with its flight model and buoyancy, we with pitch and depth rate."""
+    """Both reckon with the speed of the basestation's flight model; for sg171 we take that of its ADCP."""
     (closure,) = json.loads(read([path]).log.metadata["closures"])
     with netCDF4.Dataset(path) as file:
         told = {name: float(file[name][...]) for name in file.variables if name.startswith(("surface_", "depth_avg_"))
@@ -195,5 +195,6 @@ def test_drift_and_current_are_near_those_of_the_basestation(path: Path) -> None
     for way in ("east", "north"):
         drift = closure["drift_before_m_s"][way]  # the basestation's: the same fixes, cm/s, on a sphere
         assert drift == pytest.approx(told[f"surface_curr_{way}"] / 100.0, abs=0.005)
-        # without angle of attack the way through water is some 15 % too long, at 0.25 m/s 0.04 m/s; sg171: 0.07
-        assert closure[f"current_{way}_m_s"] == pytest.approx(told[f"depth_avg_curr_{way}_gsm"], abs=0.08)
+        # sg561's dive is short: 3 of its 26 min are turns and surfacing, where speed is not told; its own error is 0.11
+        near = {"p5610003": 0.04, "p2490010": 0.01, "p1710100": 0.10}[path.stem]
+        assert closure[f"current_{way}_m_s"] == pytest.approx(told[f"depth_avg_curr_{way}"], abs=near)

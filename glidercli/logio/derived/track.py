@@ -2,8 +2,9 @@
 
 Between samples the horizontal speed through water is |depth rate| / tan|pitch|: the path is taken to lie along the
 hull, the angle of attack (a few degrees) is left out. It is held at zero where pitch is below 5 deg or the depth rate
-below 0.02 m/s, since the quotient then says nothing, and at the surface. What the integral along the heading misses
-at each next fix is made up for by closure.py. All of it is derived, not measured.
+below 0.02 m/s, since the quotient then says nothing, and at the surface. Where the log has speed through water, such as
+that of the flight model of a Seaglider's basestation, it is taken with the depth rate instead. What the integral along
+the heading misses at each next fix is made up for by closure.py. All of it is derived, not measured.
 """
 
 from __future__ import annotations
@@ -49,35 +50,57 @@ def with_track(log: Log) -> Log:
     incline = np.abs(0.5 * (theta[1:] + theta[:-1]))
     gap = steps > LONGEST_GAP
     afloat = _at_surface(log, times)
-    gliding = (incline >= LEAST_PITCH) & (rate >= LEAST_DEPTH_RATE) & ~gap & ~(afloat[1:] | afloat[:-1])
+    under = ~gap & ~(afloat[1:] | afloat[:-1])
+    gliding = (incline >= LEAST_PITCH) & (rate >= LEAST_DEPTH_RATE) & under
     speed = np.where(gliding, rate / np.tan(np.maximum(incline, LEAST_PITCH)), 0.0)
+    through = _speed(log, times[:-1] + (times[1:] - times[:-1]) // 2)
+    told = np.isfinite(through) & under
+    speed = np.where(told, np.sqrt(np.maximum(through**2 - rate**2, 0.0)), speed)
+    held = under & ~gliding & ~told | ~under & ~gap
     middle = np.angle(np.exp(1j * psi[1:]) + np.exp(1j * psi[:-1]))
     north = np.concatenate([[0.0], np.cumsum(speed * np.cos(middle) * steps)])
     east = np.concatenate([[0.0], np.cumsum(speed * np.sin(middle) * steps)])
     notes = [
         "dead reckoned, not measured: horizontal speed = |depth rate| / tan|pitch| along the heading, angle of attack "
-        f"left out, held at zero for {float(steps[~gliding & ~gap].sum()):.0f} s at the surface, at pitch below 5 deg "
+        f"left out, held at zero for {float(steps[held].sum()):.0f} s at the surface, at pitch below 5 deg "
         "or depth rate below 0.02 m/s"
     ]
+    if told.any():
+        notes.append(
+            f"for {float(steps[told].sum()):.0f} s horizontal speed comes from the log's speed through water "
+            f"({log['speed_through_water'].origin}) and depth rate instead"
+        )
     if gap.any():
         notes.append(
             f"{int(gap.sum())} gaps longer than {LONGEST_GAP:.0f} s, {float(steps[gap].sum()):.0f} s in all, bridged "
             "by the closure alone"
         )
-    fixes, told = _fixes(log)
+    fixes, place = _fixes(log)
     every = times
     if fixes is None:
         notes.append("no GPS fix: not corrected for current")
     else:
         every, north, east, closures = close(fixes, times, z, north, east)
         notes += _told(closures) + _uncorrected(fixes.time_ns, times)
-        told["closures"] = json.dumps([closure.document() for closure in closures])
+        place["closures"] = json.dumps([closure.document() for closure in closures])
     track = (
         Channel("north", every, north, "derived"),
         Channel("east", every, east, "derived"),
         Channel("down", times, z, "derived"),
     )
-    return log.with_channels(*track).with_metadata(**told, track_note="; ".join(notes))
+    return log.with_channels(*track).with_metadata(**place, track_note="; ".join(notes))
+
+
+def _speed(log: Log, at: Times) -> Array:
+    """Speed through water, m/s, at times, UTC ns: linear between samples that are near, NaN elsewhere."""
+    if "speed_through_water" not in log:
+        return np.full(len(at), np.nan)
+    channel = log["speed_through_water"]
+    known = channel.time_ns
+    after = np.clip(np.searchsorted(known, at), 0, len(known) - 1)
+    before = np.clip(after - 1, 0, None)
+    far = (at < known[0]) | (at > known[-1]) | (known[after] - known[before] > LONGEST_GAP * 1e9)
+    return np.where(far, np.nan, np.interp(at, known, channel.values))
 
 
 def _fixes(log: Log) -> tuple[Fixes | None, dict[str, str]]:
