@@ -42,11 +42,13 @@ def turns() -> Turns:
     found = []
     for path in ENGS:
         log = log_of(path)
-        roll, pitch, rotation = (np.degrees(log[name].values) for name in ("roll", "pitch", "mass_rotation"))
-        heading = np.degrees(np.unwrap(log["heading"].values))
-        rate = np.diff(heading) / np.diff(log["heading"].time_ns * 1e-9)
-        deep = log["depth"].values[1:] > 10.0
-        found.append([column[deep] for column in (roll[1:], pitch[1:], rate, rotation[1:])])
+        times, (roll, pitch, heading, depth) = log.together("roll", "pitch", "heading", "depth")
+        turn = np.diff(np.degrees(np.unwrap(heading)))
+        rate = np.append(np.nan, turn / np.diff(times * 1e-9))
+        both, (rotation,) = log.together("mass_rotation")
+        kept = np.isin(times, both) & (depth > 10.0) & np.isfinite(rate)
+        rotation = rotation[np.searchsorted(both, times[kept])]
+        found.append([np.degrees(roll[kept]), np.degrees(pitch[kept]), rate[kept], np.degrees(rotation)])
     return Turns(*(np.concatenate(columns) for columns in zip(*found, strict=True)))
 
 

@@ -15,6 +15,7 @@ microstructure sensors has motors on 0.7 s after the start of an event and 2 s l
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
@@ -25,7 +26,7 @@ from glidercli.log import Channel, Event
 from glidercli.logio.quantities import Quantity, channel_of
 from glidercli.logio.seaglider.columns import CONTROLS
 
-__all__ = ["Moves", "counts_of_vbd", "moves", "surface_pump"]
+__all__ = ["Moves", "clear_of_motors", "counts_of_vbd", "moves", "surface_pump"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -36,6 +37,12 @@ LONGEST_DIVE = 1e6
 """s; a dive lasts hours."""
 MOTORS = {"pitch": "pitchCtl", "vbd": "vbdCC", "roll": "rollCtl"}
 """In the order in which they run, with the column that tells the same."""
+NAMES = {
+    "mass_position": ("pitch motor",),
+    "ballast_volume": ("VBD pump", "VBD valve"),
+    "mass_rotation": ("roll motor",),
+}
+"""How the events of a channel's motor begin."""
 
 
 class Moves(NamedTuple):
@@ -107,6 +114,28 @@ def moves(
         begin = np.where(late, begin, end)
     gave = first < np.iinfo(np.int64).max
     return Moves(channels, events, np.where(gave, first, time_ns), gave)
+
+
+def clear_of_motors(channels: list[Channel], events: Sequence[Event], warnings: list[str]) -> list[Channel]:
+    """The channels of rows, without positions that stand within SLACK of the start or stop of their own motor.
+
+    Times of events are whole seconds in older software: a row just after a stop may still tell the position before it,
+    and a line from there to the next row would move the mass for half a minute.
+    """
+    found = []
+    for channel in channels:
+        words = NAMES.get(channel.name, ())
+        edges = np.array([e.time_ns for e in events if e.name.startswith(words)] if words else [], dtype=np.int64)
+        near = np.zeros(len(channel), dtype=bool)
+        for edge in edges:
+            near |= np.abs(channel.time_ns - edge) <= SLACK * 1e9
+        if near.any():
+            warnings.append(
+                f"{channel.name}: {int(near.sum())} values left out within {SLACK:g} s of its motor's start or stop, "
+                "whose times are no better; the events tell the positions there"
+            )
+        found.append(dataclasses.replace(channel, time_ns=channel.time_ns[~near], values=channel.values[~near]))
+    return found
 
 
 def _position(motor: str, counts: Array, time_ns: Times, settings: Mapping[str, float], climb_ns: int | None) -> Array:

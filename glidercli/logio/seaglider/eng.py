@@ -8,12 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
+from glidercli.log import Event
 from glidercli.logio.quantities import channel_of
 from glidercli.logio.reader import Part
 from glidercli.logio.records import NO_TIME
+from glidercli.logio.seaglider.actuators import clear_of_motors
 from glidercli.logio.seaglider.columns import DEPTH_CM, ENGINEERING, cells, engineering
 from glidercli.logio.seaglider.gathering import Gathering
-from glidercli.logio.seaglider.log_text import declination_of
+from glidercli.logio.seaglider.log_text import declination_of, read_log
 from glidercli.logio.seaglider.text_file import is_text, read_text
 
 __all__ = ["read_eng"]
@@ -25,7 +27,7 @@ LONGEST = 1e8
 
 
 def read_eng(path: Path, data: bytes) -> Part:
-    """The Part of a .eng; its heading is true where the .log of the dive stands beside it."""
+    """The Part of a .eng; where the .log of the dive stands beside it, that tells true heading and motor runs."""
     text = read_text(path, data)
     names = [name.strip() for name in text.header.get("columns", "").split(",")]
     if TIME not in names:
@@ -43,8 +45,9 @@ def read_eng(path: Path, data: bytes) -> Part:
     table = cells({name: name for name in table}, table, gathering.warnings)
     good = gathering.usable("", time_ns, table)
     time_ns, table = time_ns[good], {name: values[good] for name, values in table.items()}
-    declination = _declination(path)
+    declination, events = _beside(path)
     channels = engineering(time_ns, table, {name: name for name in table}, declination, gathering.warnings)
+    channels = clear_of_motors(channels, events, gathering.warnings)
     if "depth" in table:
         channels.append(channel_of("depth", time_ns, table["depth"], DEPTH_CM, gathering.warnings))
     if declination is not None:
@@ -56,14 +59,16 @@ def read_eng(path: Path, data: bytes) -> Part:
     return gathering.part(path, text.dive, ("eng",))
 
 
-def _declination(path: Path) -> float | None:
-    """Magnetic variation, deg, from the .log of the same name, or None."""
+def _beside(path: Path) -> tuple[float | None, tuple[Event, ...]]:
+    """Magnetic variation, deg, or None, and events of the .log of the same name, if it is there and can be read."""
     beside = path.with_suffix(".log")
     try:
         data = beside.read_bytes()
-    except OSError:
-        return None
-    return declination_of(read_text(beside, data).lines) if is_text(data) else None
+        if not is_text(data):
+            return None, ()
+        return declination_of(read_text(beside, data).lines), read_log(beside, data).log.events
+    except (OSError, InputError):
+        return None, ()
 
 
 def _numbers(texts: list[str]) -> NDArray[np.float64]:

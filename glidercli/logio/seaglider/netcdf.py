@@ -16,7 +16,7 @@ from glidercli.errors import InputError
 from glidercli.logio.quantities import channel_of
 from glidercli.logio.reader import Part
 from glidercli.logio.records import STRAY
-from glidercli.logio.seaglider.actuators import counts_of_vbd, moves, surface_pump
+from glidercli.logio.seaglider.actuators import clear_of_motors, counts_of_vbd, moves, surface_pump
 from glidercli.logio.seaglider.adcp import take_adcp
 from glidercli.logio.seaglider.columns import ENGINEERING, SEA, cells, engineering, fixes
 from glidercli.logio.seaglider.ctd import CTD, NOTES, ctd_channels, without_bad
@@ -53,8 +53,8 @@ def read_nc(path: Path, data: bytes) -> Part:
     try:
         gathering = Gathering(_middle(file), metadata=_about(file))
         states = _take_states(file, gathering)
-        _take_samples(file, gathering, states)
         _take_events(file, gathering, states.end_of_dive_ns or _start_of_climb(file))
+        _take_samples(file, gathering, states)
         if (start_ns := _at(file, 0.0)) is not None:
             gathering.events += surface_pump(file.fields("log_SM_CCo"), start_ns)
         _take_fixes(file, gathering)
@@ -86,6 +86,7 @@ def _take_samples(file: NetcdfFile, gathering: Gathering, states: States) -> Non
     good = gathering.usable(samples.kind, samples.time_ns, table | (beside if one else {}))
     time_ns, table = samples.time_ns[good], {key: values[good] for key, values in table.items()}
     channels = engineering(time_ns, table, names, _declination(file, gathering), warnings)
+    channels = clear_of_motors(channels, gathering.events, warnings)
     channels += [channel_of(key, time_ns, table[key], SEA[key], warnings) for key in SEA if key in table]
     if one:
         channels += ctd_channels(time_ns, {key: values[good] for key, values in beside.items()}, _place(file), warnings)
