@@ -23,6 +23,8 @@ def readable_file(path: Path) -> Path:
         raise InputError(path, "no such file")
     if path.is_dir():
         raise InputError(path, "is a folder; a file is needed")
+    if not path.is_file():
+        raise InputError(path, "is no regular file")
     if not os.access(path, os.R_OK):
         raise InputError(path, "cannot be read: permission denied")
     if path.stat().st_size == 0:

@@ -26,10 +26,15 @@ def beginning(data: bytes, most: int) -> bytes:
     """The first bytes that the data hold, unpacked if they are gzip, as far as that goes."""
     if not is_gzip(data):
         return data[:most]
+    member, found = zlib.decompressobj(wbits=_WINDOW), b""
     try:
-        return zlib.decompressobj(wbits=_WINDOW).decompress(data, most)
+        for at in range(0, len(data), PIECE):
+            found += member.decompress(data[at : at + PIECE], most - len(found))
+            if len(found) >= most or member.eof:
+                break
     except zlib.error:
-        return b""
+        pass  # what stands before the damage is told
+    return found
 
 
 def unpacked(path: Path, data: bytes) -> tuple[bytes, bool]:

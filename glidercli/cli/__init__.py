@@ -39,5 +39,7 @@ def _terminated(number: int, frame: object) -> NoReturn:
 
 
 def _fail(message: str, exit_code: int) -> None:
-    print("glider: error: " + " ".join(message.split()), file=sys.stderr)
+    from glidercli.cli.printing import plain
+
+    print(plain("glider: error: " + " ".join(message.split())), file=sys.stderr)
     sys.exit(exit_code)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,6 +11,8 @@ import typer
 from glidercli.cli.options import CacheOption, ColumnsOption, Debug, FormatOption, Json, Quiet
 
 _MOST_ROWS = 14  # of the tables of files and dives
+_WIDTH = 80  # columns of a terminal
+_WIDTHS = (8, 8, 4, 8, 8, 8)  # of the cells of a channel
 
 
 def info(
@@ -25,14 +28,14 @@ def info(
 ) -> None:
     """What a log holds: spans, sampling, gaps, dives, and what is missing."""
     from glidercli.cli.logs_in import cores
-    from glidercli.cli.printing import json_text
+    from glidercli.cli.printing import json_text, plain
     from glidercli.cli.progress import progress
     from glidercli.logio import overview, read
 
     with progress("reading", "files", quiet) as bar:
         reading = read(log, format, bar.tell, cache=cache, columns=columns, workers=cores())
     document = overview(reading).document()
-    print(json_text(document) if json else "\n".join(_text(document)))
+    print(json_text(document) if json else "\n".join(map(plain, _text(document))))
 
 
 def _text(d: dict[str, Any]) -> list[str]:
@@ -48,14 +51,12 @@ def _text(d: dict[str, Any]) -> list[str]:
         deepest = max(dive["deepest_m"] for dive in d["dives"])
         lines.append(f"{_count(len(d['dives']), 'dive')} to {deepest:.1f} m at most")
     lines += ["", *_files(d["files"])]
-    lines += ["", f"{'channel':<31}{'samples':>8}{'every':>9}{'gaps':>5}{'longest':>9}{'minimum':>9}{'maximum':>9}"]
+    lines += ["", _row("channel", "samples", "every", "gaps", "longest", "minimum", "maximum")]
     for c in d["channels"]:
         low, high = ("-" if v is None else f"{v:z.4g}" for v in (c["minimum"], c["maximum"]))
         mark = "*" if c["origin"] == "derived" else ""
-        lines.append(
-            f"{c['name'] + mark:<30}{c['samples']:>9,}{_span(c['interval_s']):>9}{c['gaps']:>5}"
-            f"{_span(c['longest_gap_s']):>9}{low:>9}{high:>9}"
-        )
+        every, longest = _span(c["interval_s"]), _span(c["longest_gap_s"])
+        lines.append(_row(c["name"] + mark, f"{c['samples']:,}", every, str(c["gaps"]), longest, low, high))
     if any(c["origin"] == "derived" for c in d["channels"]):
         lines.append("* derived, not recorded; how: glider replay, or --json")
     if d["dives"]:
@@ -67,17 +68,27 @@ def _text(d: dict[str, Any]) -> list[str]:
         lines += _shortened(rows, "dives")
     for event, count in _counted(d["events"]):
         lines.append(f"event {event}: {count}")
-    return lines + (["", "missing:", *(f"  {line}" for line in d["missing"])] if d["missing"] else [])
+    if d["missing"]:
+        lines += ["", "missing:"]
+        for line in d["missing"]:
+            lines += textwrap.wrap(line, _WIDTH, initial_indent="  ", subsequent_indent="    ")
+    return lines
+
+
+def _row(name: str, *cells: str) -> str:
+    """A line of the table of channels; cells that are too wide push the others, and never touch them."""
+    return f"{name:<30}" + "".join(f" {cell:>{width}}" for cell, width in zip(cells, _WIDTHS, strict=True))
 
 
 def _files(files: list[dict[str, Any]]) -> list[str]:
     """A line for each file, and what it dropped."""
     rows = []
     for f in files:
-        gone = "; ".join(f"{item['count']:,} {item['reason']}" for item in f["dropped"])
-        told = f.get("error") or gone or ""
+        ordered = sorted(f["dropped"], key=lambda item: -item["count"])
+        gone = [f"{item['count']:,} {item['reason']}" for item in ordered]
+        told = "; ".join([*([f["error"]] if "error" in f else []), *gone])
         rows.append(f"{_cut(Path(f['path']).name, 34):<35}{f['format'] or '-':<13}{f['kept']:>9,} of {f['records']:,}")
-        rows += [f"    {_cut(told, 75)}"] if told else []
+        rows += textwrap.wrap(told, _WIDTH, initial_indent="    ", subsequent_indent="      ")
     return [f"{'file':<35}{'format':<13}{'kept':>9} of records", *_shortened(rows, "lines of files")]
 
 

@@ -22,6 +22,11 @@ def finite(value: Any) -> Any:
     return value
 
 
+def plain(text: str) -> str:
+    """A line as a terminal may show it: control characters, such as those of a hostile file name, written out."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
 def json_text(document: Any) -> str:
     """The document as JSON; non-finite numbers are null."""
     return json.dumps(finite(document), indent=2, allow_nan=False, ensure_ascii=False)
@@ -31,10 +36,10 @@ def warn(messages: Iterable[str], quiet: bool) -> None:
     """Each message as one line on stderr, unless quiet."""
     if not quiet:
         for message in messages:
-            print(f"glider: warning: {message}", file=sys.stderr)
+            print(plain(f"glider: warning: {message}"), file=sys.stderr)
 
 
 def say(message: str, quiet: bool) -> None:
     """A progress message on stderr, unless quiet."""
     if not quiet:
-        print(message, file=sys.stderr)
+        print(plain(message), file=sys.stderr)

@@ -30,7 +30,7 @@ def replay(
     """Recorded field logs: what they hold, and into MCAP, Rerun and CSV."""
     from glidercli.cli.logs_in import cores
     from glidercli.cli.outputs import check_log_outputs, write_log
-    from glidercli.cli.printing import json_text, say, warn
+    from glidercli.cli.printing import json_text, plain, say, warn
     from glidercli.cli.progress import progress
     from glidercli.logio import replay as play
 
@@ -50,7 +50,7 @@ def replay(
     if json:
         print(json_text(played.document()))
     elif not stdout:
-        print("\n".join(_summary(played.document(), played.log.kind, played.log.metadata)))
+        print("\n".join(map(plain, _summary(played.document(), played.log.kind, played.log.metadata))))
 
 
 def _summary(d: dict[str, Any], kind_of_log: str, metadata: Mapping[str, str]) -> list[str]:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from glidercli.errors import InputError
+from glidercli.files import readable_file
 from glidercli.log import Log
 from glidercli.logio.companions import is_companion
 from glidercli.logio.derived import with_derived
@@ -59,6 +60,10 @@ def read(
         No format of this name.
     """
     check_format(format)
+    if cache is not None and not Path(cache).is_dir():
+        raise InputError("--cache", f"{cache} is no folder; the folder of the .cac files is needed")
+    if columns is not None:
+        readable_file(Path(columns))
     aids = Aids(None if cache is None else Path(cache), None if columns is None else Path(columns))
     files = _files(paths)
     parts: list[Part] = []
@@ -88,7 +93,7 @@ def _files(paths: Sequence[str | Path]) -> dict[Path, bool]:
     for given in paths:
         path = Path(given)
         if path.is_dir():
-            found += [(p, True) for p in sorted(path.iterdir()) if p.is_file() and not p.name.startswith(".")]
+            found += [(p, True) for p in sorted(path.iterdir()) if not p.is_dir() and not p.name.startswith(".")]
         elif path.exists() or not glob.has_magic(str(given)):
             found.append((path, False))
         else:
@@ -102,7 +107,9 @@ def _files(paths: Sequence[str | Path]) -> dict[Path, bool]:
 
 def _nothing(paths: Sequence[str | Path], reports: list[FileReport]) -> InputError:
     """Why nothing was read. reports : of files that are no companions."""
-    if not reports or (all(report.format is None for report in reports) and all(Path(p).is_dir() for p in paths)):
-        return InputError(" ".join(map(str, paths)), f"holds no log; readable are {', '.join(FORMATS)}")
+    if not reports:
+        inside = sum(p.is_dir() for path in paths for p in Path(path).iterdir())
+        folders = f" ({inside} folders in it are not looked into)" if inside else ""
+        return InputError(" ".join(map(str, paths)), f"holds no log{folders}; readable are {', '.join(FORMATS)}")
     more = f" (and {len(reports) - 1} more files)" if len(reports) > 1 else ""
     return InputError(reports[0].path, f"{reports[0].error}{more}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import importlib.util
 import json
 import os
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 from glidercli.errors import InputError
 from glidercli.ocean.current import CurrentProfile
 from glidercli.ocean.pings import currents_of_pings, is_pings, pings_of
+from glidercli.ocean.record_ends import remarks_on_ends
 
 __all__ = ["adcp_currents"]
 
@@ -25,8 +27,8 @@ _ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OPENBLAS", "OMP", "MKL")
 _MEMORY, _MEMORY_PER_BYTE = 4 << 30, 200  # address space, bytes; real files took 1.6 GB with all libraries
 
 
-def adcp_currents(path: Path, kind: str) -> tuple[CurrentProfile, ...]:
-    """The current profiles of a file; see pings.py. kind : of the file, for messages.
+def adcp_currents(path: Path, kind: str, latitude: float | None = None) -> tuple[CurrentProfile, ...]:
+    """The current profiles of a file; see pings.py. kind : of the file. latitude : deg, for depth of pressure.
 
     Of an .ad2cp the library leaves out the last record, whole or not.
 
@@ -42,7 +44,9 @@ def adcp_currents(path: Path, kind: str) -> tuple[CurrentProfile, ...]:
     variables, attributes = _read(path, kind)
     if not is_pings(variables):
         raise InputError(path, f"is a {kind} file without velocities by depth")
-    return currents_of_pings(path, pings_of(variables, attributes))
+    first, *others = currents_of_pings(path, pings_of(variables, attributes, latitude))
+    remarks = remarks_on_ends(path.read_bytes(), kind)
+    return (dataclasses.replace(first, warnings=first.warnings + remarks), *others)
 
 
 def _read(path: Path, kind: str) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:

@@ -204,6 +204,10 @@ def _complete(table: Table) -> tuple[Table, tuple[tuple[str, int], ...]]:
     """The rows that lack nothing of the water, and what is left out, counted by the first column that a row lacks."""
     kept = np.ones(len(table), dtype=bool)
     dropped: list[tuple[str, int]] = []
+    idle = [table.measured(name) == 0.0 for name in ("temperature_degC", *_SALT) if name in table]
+    if len(idle) > 1 and (zero := np.all(idle, axis=0)).any():
+        dropped.append(("temperature and salinity both zero", int(zero.sum())))
+        kept &= ~zero
     for name in (name for name in _NEEDED if name in table):
         lacking = table.lacking(name) & kept
         if lacking.any():

@@ -67,7 +67,9 @@ def gathered_casts(
     return _in_order(found, own_time, given, start_ns, "cast")
 
 
-def gathered_currents(given: Sequence[Source], start_ns: int | None = None) -> tuple[CurrentProfile, ...]:
+def gathered_currents(
+    given: Sequence[Source], latitude: float | None = None, start_ns: int | None = None
+) -> tuple[CurrentProfile, ...]:
     """The current profiles of all sources, in time order; as ``gathered_casts``."""
 
     def read(source: Source) -> tuple[CurrentProfile, ...]:
@@ -75,7 +77,7 @@ def gathered_currents(given: Sequence[Source], start_ns: int | None = None) -> t
             from glidercli.ocean.from_log import currents_of_log
 
             return currents_of_log(source)
-        return read_currents(source)
+        return read_currents(source, latitude)
 
     found = [profile for source in given for profile in read(source)]
     return _in_order(found, lambda profile: profile.moment or profile.own_moment, given, start_ns, "current profile")

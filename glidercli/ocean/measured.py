@@ -78,6 +78,10 @@ def usable(water: Measured, inside: Mask | None = None) -> tuple[Mask, tuple[tup
     faults: list[tuple[str, Mask]] = []
     there = [(name, unit, values, limits) for name, unit, values, limits in ranges if values is not None]
     faults += [(f"without {name}", ~np.isfinite(values)) for name, _, values, _ in there]
+    salts = (water.salinity, water.absolute_salinity, water.conductivity)
+    idle = [values == 0.0 for values in (water.temperature, *salts) if values is not None]
+    if water.temperature is not None and len(idle) > 1:
+        faults.append(("temperature and salinity both zero", np.all(idle, axis=0)))
     if water.conductivity is not None:
         faults.append(("in air", water.conductivity < IN_AIR))
     for name, unit, values, (low, high) in there:

@@ -20,6 +20,7 @@ from glidercli.errors import InputError
 from glidercli.files import readable_file
 from glidercli.netcdf_opening import dataset
 from glidercli.ocean.source import listed
+from glidercli.units import KNOT
 
 __all__ = ["QUANTITIES", "NcFile", "opened"]
 
@@ -53,11 +54,12 @@ _CELSIUS = _units(
 )
 _SIEMENS = _units(("s/m sm-1 s.m-1", 1.0, 0.0), ("ms/cm mscm-1 mmho/cm", 0.1, 0.0), ("us/cm uscm-1", 1e-4, 0.0))
 _PRACTICAL = _units(("1 psu pss pss-78 pss78 1e-3 0.001 10^-3 ppt o/oo g/kg gkg-1 unitless dimensionless", 1.0, 0.0))
-_GRAM = _units(("g/kg gkg-1 g.kg-1", 1.0, 0.0), ("kg/kg", 1000.0, 0.0))
+_GRAM = _units(("g/kg gkg-1 g.kg-1", 1.0, 0.0), ("kg/kg kgkg-1 kg.kg-1", 1000.0, 0.0))
 _DENSE = _units(("kg/m3 kgm-3 kg.m-3 kg/m^3", 1.0, 0.0), ("g/cm3 gcm-3", 1000.0, 0.0), ("g/m3 g/m^3 gm-3", 0.001, 0.0))
 _SPEED = _units(
     ("m/s ms-1 m.s-1 ms^-1 meter/sec meters/second", 1.0, 0.0),
     ("cm/s cms-1 cm.s-1", 0.01, 0.0),
+    ("knot knots kn kt", KNOT, 0.0),
     ("mm/s mms-1", 0.001, 0.0),
 )
 _DEGREES = _units(

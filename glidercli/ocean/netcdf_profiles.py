@@ -81,13 +81,16 @@ def netcdf_casts(path: Path, latitude: float | None, longitude: float | None) ->
     return _finished(path, casts, lost, remarks, "samples")
 
 
-def netcdf_currents(path: Path) -> tuple[CurrentProfile, ...]:
-    """The current profiles of a NetCDF file, in the earth frame; InputError as for casts, and for any other frame."""
+def netcdf_currents(path: Path, latitude: float | None = None) -> tuple[CurrentProfile, ...]:
+    """The current profiles of a NetCDF file, in the earth frame; InputError as for casts, and for any other frame.
+
+    latitude : deg, for the depth of a pressure where the file has none.
+    """
     with opened(path) as file:
         main = main_of(file, ("east",))
         north = main and file.find("north", main[1].dimensions)
         if main is None and is_pings(file.variables):
-            return currents_of_pings(path, pings_of(*_as_read(file)))
+            return currents_of_pings(path, pings_of(*_as_read(file), latitude))
         if main is None or north is None:
             file.check_earth([v for v in file.variables.values() if v.name.lower().startswith("vel")])
             what = "has no eastward_sea_water_velocity and northward_sea_water_velocity"
@@ -99,7 +102,7 @@ def netcdf_currents(path: Path) -> tuple[CurrentProfile, ...]:
         depth, bad = _column(file, layout, layout.axis)
         assert depth is not None
         if layout.axis == "pressure":
-            latitudes = np.array([place or 0.0 for place in _along(file, layout, "latitude")])
+            latitudes = np.array([place or latitude or 0.0 for place in _along(file, layout, "latitude")])
             depth = seawater.depth_from_pressure(depth, latitudes[:, np.newaxis])  # type: ignore[arg-type]
         velocity = []
         for quantity in ("east", "north", "up"):

@@ -136,8 +136,8 @@ class Ocean:
             began, ended = float(profile.times[0]), float(profile.times[-1])
             if len(profile.times) > 1 and (began > 0.0 or duration > ended):
                 warnings.append(
-                    f"the flight lasts from 0 to {duration:.0f} s, the {name}s from {began:.0f} to {ended:.0f} s; the "
-                    "first and the last are held beyond"
+                    f"the flight lasts from 0 to {_span(duration)}, the {name}s from {_span(began)} to {_span(ended)}; "
+                    "the first and the last are held beyond"
                 )
             if given and (max(shallowest, 0.0) < top or deepest > bottom):
                 warnings.append(
@@ -145,6 +145,11 @@ class Ocean:
                     "its end values are held beyond"
                 )
         return warnings
+
+
+def _span(seconds: float) -> str:
+    """A time since the start of the flight, in days where seconds say little."""
+    return f"{seconds:.0f} s" if abs(seconds) < 2.0 * 86400.0 else f"{seconds / 86400.0:.1f} d"
 
 
 def _in_time(times: list[float], profiles: list[Knots]) -> Profile:

@@ -72,8 +72,13 @@ def is_pings(names: Container[str]) -> bool:
     return ("vel" in names and "range" in names) or ("vel_avg" in names and "range_avg" in names)
 
 
-def pings_of(variables: Mapping[str, NDArray[Any]], attributes: Mapping[str, Any]) -> Pings:
-    """Ensembles from variables that mhkit's dolfyn names. Times are in s since 1970."""
+def pings_of(
+    variables: Mapping[str, NDArray[Any]], attributes: Mapping[str, Any], latitude: float | None = None
+) -> Pings:
+    """Ensembles from variables that mhkit's dolfyn names. Times are in s since 1970.
+
+    latitude : deg, for the depth of a pressure; 0 without it, which makes depth too great by 0.53 % at the poles.
+    """
     end = "" if "vel" in variables else "_avg"
 
     def get(name: str) -> Array | None:
@@ -86,7 +91,7 @@ def pings_of(variables: Mapping[str, NDArray[Any]], attributes: Mapping[str, Any
     depth, pressure = get("depth"), get("pressure")
     if depth is None:
         known = np.full(len(time), np.nan) if pressure is None else np.where(pressure < DEEPEST, pressure, np.nan)
-        depth = depth_from_pressure(np.maximum(known, 0.0), 0.0)
+        depth = depth_from_pressure(np.maximum(known, 0.0), latitude or 0.0)
     bottom, distance = _clean(variables.get("vel_bt")), variables.get("dist_bt")
     if bottom is not None and bottom.shape[-1] != len(time):
         bottom = None  # of another clock

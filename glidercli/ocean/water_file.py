@@ -26,16 +26,19 @@ def read_casts(path: str | Path, latitude: float | None = None, longitude: float
     return text_casts(path, latitude, longitude)
 
 
-def read_currents(path: str | Path) -> tuple[CurrentProfile, ...]:
-    """The current profiles of a table, a NetCDF file or an ADCP's binary."""
+def read_currents(path: str | Path, latitude: float | None = None) -> tuple[CurrentProfile, ...]:
+    """The current profiles of a table, a NetCDF file or an ADCP's binary.
+
+    latitude : deg, of the flight, where a depth comes from a pressure.
+    """
     path = Path(path)
     kind = kind_of(readable_file(path))
     if kind == NETCDF:
         from glidercli.ocean.netcdf_profiles import netcdf_currents
 
-        return netcdf_currents(path)
+        return netcdf_currents(path, latitude)
     if kind in (PD0, AD2CP):
         from glidercli.ocean.adcp_file import adcp_currents
 
-        return adcp_currents(path, kind)
+        return adcp_currents(path, kind, latitude)
     return table_currents(path)

@@ -65,6 +65,8 @@ def controls_of(
             held[name] = float(given[name] or 0.0)
     if not tables:
         raise InputError(source_of(log), f"has no actuator channel; needed is one of {', '.join(CONTROLS)}")
+    if "rudder_angle" in log and np.ptp(log["rudder_angle"].values) + np.abs(log["rudder_angle"].values).max() > 0.0:
+        warnings.append(f"controls: the log's rudder angle is not flown: the model of {vehicle.name} has no rudder")
     platform = log.metadata.get("platform", "")
     if platform and vehicle.name.lower() not in platform.lower():
         warnings.append(f"controls: {platform} recorded them, {vehicle.name} flies them: no twin of that flight")

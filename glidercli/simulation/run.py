@@ -165,7 +165,7 @@ def simulate(
         longitude = wanted.place[1] if wanted.place else None
         casts = gathered_casts(water, latitude, longitude, wanted.start_ns)
     with _for_mission(plan, asked, "adcp"):
-        currents = gathered_currents(flow, wanted.start_ns)
+        currents = gathered_currents(flow, latitude, wanted.start_ns)
     ocean = Ocean.build(
         p.rho_0, casts=casts, currents=currents, latitude=latitude, temperature_reference=p.T_0,
         start_ns=wanted.start_ns,

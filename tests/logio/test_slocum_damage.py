@@ -251,11 +251,12 @@ def test_a_missing_cache_is_named_with_the_three_places(tmp_path: Path, glider: 
         glider("replay", path), str(path), f"its cache {CAC} (or {FACTORED.crc}.ccc) is missing", "--cache DIR"
     )
     elsewhere = tmp_path / "elsewhere"
+    one_line_error(glider("replay", path, "--cache", elsewhere), "--cache", "is no folder")
+    elsewhere.mkdir()
     line = one_line_error(
         glider("replay", path, "--cache", elsewhere), f"{tmp_path}, {tmp_path / 'cache'}, {elsewhere}"
     )
     assert "--cache DIR" not in line
-    elsewhere.mkdir()
     written(elsewhere / CAC.upper(), FACTORED.cache)
     assert glider("replay", path, "--cache", elsewhere).returncode == 0
 

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from glidercli.errors import InputError
 from glidercli.gzipped import beginning, unpacked
 from glidercli.log import Log
 from glidercli.logio.reader import Aids, Part
@@ -26,6 +27,8 @@ __all__ = ["is_seaexplorer", "read_seaexplorer"]
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
 
+MOST_COLUMNS = 2000
+"""Real files have 10 to 60."""
 HEAD = 65536
 """Bytes that the first line stands in."""
 NAVIGATION, PAYLOAD = "Timestamp", "PLD_REALTIMECLOCK"
@@ -51,6 +54,8 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
     text = data.decode("latin-1")
     lines = text.lstrip("\ufeff\xef\xbb\xbf ").split("\n")
     names = [name.strip() for name in lines[0].split(";")]
+    if len(names) > MOST_COLUMNS:
+        raise InputError(path, f"line 1: names {len(names)} columns; at most {MOST_COLUMNS} are allowed")
     dropped: Counter[str] = Counter()
     rows: list[list[str]] = []
     records = 0

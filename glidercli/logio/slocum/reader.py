@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from glidercli.errors import InputError
+from glidercli.gzipped import beginning
 from glidercli.log import Log
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import NO_TIME, usable
@@ -42,7 +43,7 @@ UNSET = "clock not set: before 2001, when the format began"
 def is_slocum(path: Path) -> bool:
     """Whether a file begins as a Slocum's does, compressed or not."""
     with path.open("rb") as stream:
-        head = stream.read(16)
+        head = beginning(stream.read(4096), 16)
     return head.startswith(LABEL) or is_packed(head, LABEL)
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from glidercli.errors import InputError
 from glidercli.files import readable_file
+from glidercli.gzipped import unpacked as gunzipped
 from glidercli.logio.slocum.caches import cached_list
 from glidercli.logio.slocum.cycles import Cycles
 from glidercli.logio.slocum.header import header_of
@@ -24,7 +25,8 @@ CLOCKS = ("m_present_time", "sci_m_present_time")
 
 def cycles_of(path: Path, cache: Path | None = None) -> tuple[Cycles, str | None]:
     """The cycles of a file, and where its compressed data are damaged, or None."""
-    data, damage = readable_file(path).read_bytes(), None
+    data, whole = gunzipped(path, readable_file(path).read_bytes())
+    damage = None if whole else "gzip data cut short or damaged: only what could be unpacked was read"
     if is_packed(data[:16], LABEL):
         data, at = unpacked(data)
         if at is not None:

@@ -13,6 +13,8 @@ import numpy as np
 import pytest
 
 from glidercli.errors import InputError
+from glidercli.ocean.kind import AD2CP, PD0
+from glidercli.ocean.record_ends import remarks_on_ends
 from glidercli.ocean.water_file import read_currents
 
 from .pd0 import ensembles, in_frame
@@ -148,3 +150,21 @@ def test_without_the_extra_the_message_says_what_to_install(monkeypatch):
 def test_the_library_stays_out_of_this_process():
     read_currents(ADCP / "RDI_7f79_2.000")
     assert "mhkit" not in sys.modules
+
+
+@pytest.mark.parametrize("name", ["RDI_withBT.000", "Sig100_avg.ad2cp"])
+def test_a_file_that_is_cut_says_so(tmp_path: Path, name: str) -> None:
+    data = (ADCP / name).read_bytes()
+    cut = tmp_path / name
+    cut.write_bytes(data[: len(data) * 2 // 5])
+    first = read_currents(cut)[0]
+    assert any("belong to no whole record" in line for line in first.warnings)
+
+
+def test_a_wrong_checksum_is_counted() -> None:
+    data = bytearray((ADCP / "RDI_withBT.000").read_bytes())
+    data[300] ^= 1
+    assert remarks_on_ends(bytes(data), PD0)[0] == "1 of 1721 records have a wrong checksum"
+    nortek = bytearray((ADCP / "Sig100_avg.ad2cp").read_bytes())
+    nortek[30_000] ^= 1
+    assert remarks_on_ends(bytes(nortek), AD2CP)[0].startswith("1 of 117 records")
