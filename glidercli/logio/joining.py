@@ -1,7 +1,8 @@
 """When do several files make one log? In time order, no record twice, nothing of another origin among them.
 
 Files of one dive (navigation and payload) may interleave. Dives follow one another: what is not after the one before
-is dropped and counted. Of files that hold the same recording the fullest is read.
+is dropped and counted. Of files that hold the same recording the best is read, and of
+the others what stands before and after it.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from glidercli.logio.report import FileReport
 
 __all__ = ["joined"]
 
+FOREVER = np.iinfo(np.int64).max
 FAR = 86400 * 10**9
 """Files further apart in time than this are joined, and it is said, ns."""
 PLACE = ("origin_latitude_deg", "origin_longitude_deg")
@@ -39,10 +41,11 @@ def joined(parts: list[Part]) -> tuple[Log, list[FileReport]]:
         for name in part.holds:
             holders.setdefault(name, []).append(part)
     for number, part in enumerate(parts):
-        twin = _fuller(part, holders[part.holds[0]]) if part.holds else None
-        if twin is not None:
-            reports[part.report.path] = _all_dropped(part.report, f"its recording is in {twin.report.path.name}")
-        else:
+        best = _fuller(part, holders[part.holds[0]]) if part.holds else None
+        if best is not None:
+            part = _beyond(part, best)
+            reports[part.report.path] = part.report
+        if len(part.record_ns):
             dives.setdefault(part.dive or f"file {number}", []).append(part)
     paths = [part.report.path for part in parts]
     parts.clear()
@@ -85,15 +88,27 @@ def _place(log: Log) -> list[str | None]:
 
 
 def _fuller(part: Part, others: list[Part]) -> Part | None:
-    """The fullest of the files that hold all that this one does, if it is another; of equals the first."""
+    """The best of the files that hold all that this one does, if it is another: whole, full, long, first."""
     twins = [other for other in others if set(part.holds) <= set(other.holds)]
-    best = max(twins, key=lambda other: (other.fullness, len(other.holds)))
+    best = max(
+        twins, key=lambda other: (other.report.error is None, other.fullness, len(other.holds), other.report.kept)
+    )
     return None if best is part else best
 
 
-def _all_dropped(report: FileReport, reason: str) -> FileReport:
-    dropped = (*report.dropped, (reason, report.kept)) if report.kept else report.dropped
-    return dataclasses.replace(report, kept=0, dropped=dropped)
+def _beyond(part: Part, best: Part) -> Part:
+    """What a file has before and after a better one of the same recording; the rest is counted as dropped."""
+    shared = [best.log[name].time_ns for name in part.log.channels.keys() & best.log.channels.keys()]
+    first, last = min((int(t[0]) for t in shared), default=-FOREVER), max((int(t[-1]) for t in shared), default=FOREVER)
+    outside = (part.record_ns < first) | (part.record_ns > last)
+    kept = _keeping(part, outside, f"its recording is in {best.report.path.name}")
+    channels = {}
+    for name, channel in part.log.channels.items():
+        there = np.isin(channel.time_ns, kept.record_ns)
+        if there.any():
+            channels[name] = dataclasses.replace(channel, time_ns=channel.time_ns[there], values=channel.values[there])
+    events = tuple(event for event in part.log.events if not first <= event.time_ns <= last)
+    return dataclasses.replace(kept, log=dataclasses.replace(part.log, channels=channels, events=events))
 
 
 def _without_yielded(dive: list[Part]) -> list[Part]:

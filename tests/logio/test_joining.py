@@ -96,3 +96,21 @@ def test_many_processes_read_what_one_does(tmp_path: Path, monkeypatch) -> None:
         np.testing.assert_array_equal(channel.values, two.log[name].values)
         np.testing.assert_array_equal(channel.time_ns, two.log[name].time_ns)
     assert told == [(done, 7) for done in range(8)]
+
+
+def test_a_cut_file_takes_no_whole_one_with_it(tmp_path: Path) -> None:
+    """A raw file that ends early goes first as far as it reaches; the sub file has the rest."""
+    whole = LOGS / "sea035.12.gli.sub.37"
+    lines = whole.read_bytes().splitlines(keepends=True)
+    (tmp_path / "sea035.12.gli.raw.37").write_bytes(b"".join(lines[:101]))
+    shutil.copy(whole, tmp_path)
+    reading = read([tmp_path])
+    raw, sub = reading.files
+    assert (raw.kept, sub.kept) == (100, 404)
+    assert sub.dropped == (("its recording is in sea035.12.gli.raw.37", 100),)
+    assert len(reading.log["depth"]) == 504
+    with_error = gzip.compress(b"".join(lines))[:-2000]
+    (tmp_path / "sea035.12.gli.raw.37").write_bytes(with_error)
+    raw, sub = read([tmp_path]).files
+    assert raw.error is not None
+    assert (raw.kept, sub.kept) == (0, 504)
