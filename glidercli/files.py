@@ -108,5 +108,9 @@ def atomic(path: Path, force: bool) -> Iterator[Path]:
         os.replace(beside, target)
     except OSError as error:
         raise OutputError(path, f"cannot be written: {error.strerror or error}") from error
+    except RuntimeError as error:
+        if "HDF" not in str(error):  # the word of the NetCDF library for a disk that is full
+            raise
+        raise OutputError(path, f"cannot be written: {error}; is the disk full?") from error
     finally:
         beside.unlink(missing_ok=True)

@@ -56,7 +56,8 @@ def channel_of(
     outside = int((given & ~inside).sum())
     if outside:
         warnings.append(
-            f"{name}: {outside} values outside {quantity.low:g}..{quantity.high:g} {quantity.unit} left out"
+            f"{name}: {outside} values outside {round(quantity.low, 6) + 0.0:g}..{round(quantity.high, 6):g} "
+            f"{quantity.unit} left out"
         )
     times = time_ns if inside.all() else time_ns[inside]  # shared, not copied, where nothing is left out
     return Channel(quantity.channel, times, values[inside] * quantity.factor, origin)

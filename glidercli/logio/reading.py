@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import glob
+import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from glidercli.logio.derived import with_derived
 from glidercli.logio.formats import FORMATS, check_format
 from glidercli.logio.joining import joined
 from glidercli.logio.reader import Aids, Part
-from glidercli.logio.report import FileReport
+from glidercli.logio.report import FileReport, all_dropped
 from glidercli.logio.spreading import read_all
 
 __all__ = ["Reading", "read"]
@@ -75,6 +76,7 @@ def read(
         reports[report.path] = report
         if isinstance(found, Part):
             parts.append(found)
+    parts = _without_outputs(parts, files, reports)
     if not parts:
         raise _nothing(paths, list(reports.values()))
     dives = tuple(dict.fromkeys(part.dive for part in parts if part.dive))
@@ -87,12 +89,26 @@ def read(
     return Reading(log, tuple(reports.values()), dives, partners)
 
 
+def _without_outputs(parts: list[Part], files: dict[Path, bool], reports: dict[Path, FileReport]) -> list[Part]:
+    """The parts, without what this program wrote into a folder of recordings; its records are counted as dropped."""
+    recorded = any(not FORMATS[part.report.format or ""].own and files[part.report.path] for part in parts)
+    left = []
+    for part in parts:
+        if recorded and FORMATS[part.report.format or ""].own and files[part.report.path]:
+            reports[part.report.path] = all_dropped(part.report, "an output of this program beside recordings")
+        else:
+            left.append(part)
+    return left
+
+
 def _files(paths: Sequence[str | Path]) -> dict[Path, bool]:
     """Every file that the paths name, each once, those of folders and globs sorted; and whether a folder holds it."""
     found: list[tuple[Path, bool]] = []
     for given in paths:
         path = Path(given)
         if path.is_dir():
+            if not os.access(path, os.R_OK | os.X_OK):
+                raise InputError(path, "cannot be listed: permission denied")
             found += [(p, True) for p in sorted(path.iterdir()) if not p.is_dir() and not p.name.startswith(".")]
         elif path.exists() or not glob.has_magic(str(given)):
             found.append((path, False))

@@ -25,6 +25,8 @@ NO_TIME = np.iinfo(np.int64).min
 """Stands for a time that cannot be read."""
 STRAY = 30 * 86400 * 10**9
 """Times of one file that stand further apart than this are of two clocks, ns."""
+BORN = 631_152_000 * 10**9
+"""1990-01-01, UTC ns: no glider flew before."""
 HELD = 3
 """So many records show that a clock was set; fewer may be garbled."""
 
@@ -36,6 +38,9 @@ def usable(time_ns: Times, cells: Mapping[str, Array], dropped: Counter[str]) ->
     """
     good: Mask = time_ns != NO_TIME
     _count(dropped, "time cannot be read", ~good)
+    unset = good & (time_ns < BORN)
+    _count(dropped, "clock not set: before 1990", unset)
+    good &= ~unset
     if good.any():
         first, last = _set_clock(time_ns[good])
         before, after = good & (time_ns < first), good & (time_ns > last)

@@ -6,7 +6,7 @@ import dataclasses
 from pathlib import Path
 from typing import Any
 
-__all__ = ["FileReport"]
+__all__ = ["FileReport", "all_dropped"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -37,3 +37,9 @@ class FileReport:
             "warnings": [*([] if self.error is None else [self.error]), *self.warnings],
         }
         return entry if self.error is None else {**entry, "error": self.error}
+
+
+def all_dropped(report: FileReport, reason: str) -> FileReport:
+    """The account of a file of which nothing is used after all."""
+    dropped = (*report.dropped, (reason, report.kept)) if report.kept else report.dropped
+    return dataclasses.replace(report, kept=0, dropped=dropped)

@@ -149,6 +149,8 @@ class Ocean:
 
 def _span(seconds: float) -> str:
     """A time since the start of the flight, in days where seconds say little."""
+    if seconds == 0.0:
+        return "0"
     return f"{seconds:.0f} s" if abs(seconds) < 2.0 * 86400.0 else f"{seconds / 86400.0:.1f} d"
 
 

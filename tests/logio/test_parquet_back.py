@@ -48,7 +48,7 @@ def test_a_log_comes_back_from_mcap(log: Log, tmp_path_factory: pytest.TempPathF
 
 def table() -> pd.DataFrame:
     times = pd.to_datetime(["2020-01-01T00:00:00", "2020-01-01T00:00:01", "2020-01-01T00:00:02"])
-    return pd.DataFrame({"time_utc": times, "depth_m": [1.0, np.nan, 3.0], "pitch_deg": [np.nan, np.nan, 180.0]})
+    return pd.DataFrame({"time_utc": times, "depth_m": [1.0, np.nan, 3.0], "pitch_deg": [np.nan, np.nan, 45.0]})
 
 
 def test_a_table_of_pandas_is_taken_as_measured_with_a_warning(tmp_path: Path) -> None:
@@ -60,7 +60,7 @@ def test_a_table_of_pandas_is_taken_as_measured_with_a_warning(tmp_path: Path) -
         "columns not known and not used: other",
         "taken as measured: the table does not say where its values come from",
     )
-    assert reading.log["pitch"].values.tolist() == [np.pi]
+    assert reading.log["pitch"].values.tolist() == [np.pi / 4.0]
     assert reading.log.origin == "measured"
 
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, Run
 
 from glidercli.errors import InputError, OutputError
 from glidercli.log import Channel, Event, Log
@@ -86,3 +87,49 @@ def test_outputs_are_whole_or_not_there(tmp_path: Path) -> None:
     assert (tmp_path / "a.csv").read_bytes() == before
     write(sample(), tmp_path / "a.csv", force=True)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.csv", "a.csv-metadata.json"]
+
+
+def test_outputs_beside_recordings_are_passed_over(tmp_path: Path) -> None:
+    for name in ("sea035.12.gli.sub.36", "sea035.12.pld1.sub.36"):
+        shutil.copy(LOGS / name, tmp_path)
+    alone = read([tmp_path])
+    write(alone.log, tmp_path / "out.csv", tmp_path / "out.mcap")
+    again = read([tmp_path])
+    outputs = [report for report in again.files if report.path.stem == "out"]
+    assert [(r.kept, r.dropped[-1][0]) for r in outputs] == [(0, "an output of this program beside recordings")] * 2
+    assert again.log.channels.keys() == alone.log.channels.keys()
+    assert len(read([tmp_path / "out.csv"]).log["depth"]) == len(alone.log["depth"])  # by itself it is read
+
+
+def test_impossible_values_of_a_strangers_table_are_counted(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("elapsed_s,depth_m,salinity\n0,1,35\n1,-70,35\n2,9999999,-9\n3,4,\n")
+    (report,) = read([tmp_path / "a.csv"]).files
+    assert [w for w in report.warnings if "outside" in w] == [
+        "depth_m: 2 values outside -10..12000 m left out",
+        "salinity: 1 values outside 0..45 1 left out",
+    ]
+    assert (report.records, report.kept, report.dropped) == (4, 3, (("no value", 1),))
+
+
+def test_a_folder_that_cannot_be_used_says_why(tmp_path: Path) -> None:
+    (tmp_path / "inside").mkdir()
+    with pytest.raises(InputError, match=r"holds no log \(1 folders in it are not looked into\)"):
+        read([tmp_path])
+    (tmp_path / "a.gz").write_bytes(b"\x1f\x8b damaged")
+    with pytest.raises(InputError, match=r"a\.gz: is gzip data that unpack to no log"):
+        read([tmp_path])
+    with pytest.raises(InputError, match="is no folder"):
+        read([LOGS], cache=tmp_path / "none")
+    with pytest.raises(InputError, match="no such file"):
+        read([LOGS], columns=tmp_path / "none.toml")
+
+
+def test_names_cannot_write_to_the_terminal(glider: Run, tmp_path: Path) -> None:
+    shutil.copy(LOGS / "sea035.12.gli.sub.36", tmp_path / "a\x1b[31mred\nline")
+    shutil.copy(LOGS / "sea035.12.gli.sub.37", tmp_path / "b")
+    (tmp_path / "c\x1b").write_text("no log\n")
+    for command in ("info", "replay"):
+        done = glider(command, tmp_path)
+        assert done.returncode == 0
+        assert "\x1b" not in done.stdout + done.stderr
+        assert r"a\x1b[31mred\nline" in done.stdout

@@ -15,7 +15,7 @@ from glidercli.errors import InputError
 from glidercli.files import metadata_path
 from glidercli.log import Log
 from glidercli.logio.own.csv_metadata import origin_word, read_metadata, stranger
-from glidercli.logio.own.table_back import log_of, part_of
+from glidercli.logio.own.table_back import log_of, part_of, without_impossible
 from glidercli.logio.reader import Aids, Part
 from glidercli.origins import BOTH, column_name, origins
 from glidercli.provenance import file_hash
@@ -106,6 +106,7 @@ def read_csv(path: Path, aids: Aids = Aids()) -> Part:
             warnings.append(f"has changed since {beside} was written; what that says of origins is kept")
     elif word == BOTH:
         warnings.append(f"{beside} is missing: which channels are derived is not known, all are taken as derived")
+    without_impossible(table, metadata, word, warnings)
     log = log_of(table, metadata, word, "time_utc" in text, warnings)
     log = Log({c.name: c for c in log.channels.values() if len(c)}, log.origin, log.metadata, log.events)
     return part_of(path, "glider-csv", log, table, {"wrong number of fields": cut}, warnings)

@@ -14,7 +14,7 @@ from glidercli.errors import InputError
 from glidercli.log import Channel, Log, Origin
 from glidercli.logio.own.csv_metadata import parsed_metadata
 from glidercli.logio.own.parquet_log import METADATA_KEY
-from glidercli.logio.own.table_back import log_of, part_of
+from glidercli.logio.own.table_back import log_of, part_of, without_impossible
 from glidercli.logio.reader import Aids, Part
 from glidercli.origins import BOTH, column_name, origins
 
@@ -78,6 +78,7 @@ def read_own_parquet(path: Path, aids: Aids = Aids()) -> Part:
             warnings.append(f"origins {', '.join(found)} in one table: all of it is taken as {word}")
         if word == BOTH:
             warnings.append("the table does not say which channels are derived: all are taken as derived")
+    without_impossible(table, metadata, word, warnings)
     log = log_of(table, metadata, word, "time_utc" in columns, warnings)
     if not metadata:
         sampled = {name: channel for name, channel in log.channels.items() if len(channel)}

@@ -8,13 +8,15 @@ from typing import Any, cast
 
 import numpy as np
 
+from glidercli.channels import by_column
 from glidercli.log import Channel, Log, Origin
 from glidercli.logio.own.csv_metadata import events_of, texts_of
+from glidercli.logio.plausible import quantity_of
 from glidercli.logio.reader import Part
 from glidercli.logio.report import FileReport
 from glidercli.origins import BOTH
 
-__all__ = ["log_of", "part_of"]
+__all__ = ["log_of", "part_of", "without_impossible"]
 
 
 def log_of(table: Any, metadata: Mapping[str, Any], word: str | None, dated: bool, warnings: list[str]) -> Log:
@@ -39,6 +41,29 @@ def log_of(table: Any, metadata: Mapping[str, Any], word: str | None, dated: boo
         c.name: Channel(c.name, c.time_ns, c.values, of_channels.get(c.name, rest)) for c in log.channels.values()
     }
     return Log(channels, origin, told, events_of(metadata) if metadata else ())
+
+
+def without_impossible(table: Any, metadata: Mapping[str, Any], word: str | None, warnings: list[str]) -> None:
+    """Empty the cells of a measured table of another program that hold what the quantity cannot be, and count them.
+
+    A table that glider wrote, and one that says it is simulated or rebuilt, is left as it is.
+    """
+    if metadata or word not in (None, "measured"):
+        return
+    for name in table.columns:
+        spec = by_column(str(name))
+        if spec is None or spec.name == "phase":
+            continue
+        values = table[name].to_numpy(dtype=float) / spec.factor
+        bounds = quantity_of(spec.name)
+        outside = (values < bounds.low) | (values > bounds.high)
+        if outside.any():
+            low, high = (bound * spec.factor for bound in (bounds.low, bounds.high))
+            warnings.append(
+                f"{name}: {int(outside.sum())} values outside {round(low, 6) + 0.0:g}..{round(high, 6):g} "
+                f"{spec.column_unit} left out"
+            )
+            table.loc[outside, name] = np.nan
 
 
 def part_of(path: Path, format: str, log: Log, table: Any, dropped: Mapping[str, int], warnings: list[str]) -> Part:

@@ -20,6 +20,7 @@ separator = ";"                     and skip_lines, decimal, encoding; platform,
 
 from __future__ import annotations
 
+import datetime
 from collections.abc import Mapping as MappingOf
 from typing import Annotated, Any, Literal, Self
 
@@ -64,6 +65,12 @@ class Time:
         elif text not in ("iso", *NUMBERS) and "%" not in text:
             known = ", ".join(("iso", *NUMBERS))
             raise ValueError(f"allowed: {known}, seconds since DATE, or a pattern like %d/%m/%Y %H:%M:%S")
+        elif "%" in text:
+            try:
+                datetime.datetime.strptime("", text)
+            except ValueError as error:
+                if "does not match" not in str(error):
+                    raise ValueError(f"is no pattern of strptime: {error}") from None
         return text
 
     @property
