@@ -29,7 +29,7 @@ from good_files import GoodFile, Samples, good_files, read_samples
 from mutations import Random, mutated
 
 MEMORY = 4_000_000_000  # bytes of address space; libraries that are loaded reserve 1 to 2 GB of it
-SECONDS = 20  # for one file; the largest good one takes 0.5 s
+SECONDS = 60  # for one file; the largest good one takes 2 s, an HDF5 file that never opens is given up after 10
 BATCH = 100
 FAULTS = ("traceback", "crash", "hang", "not one line", "samples that nothing accounts for")
 

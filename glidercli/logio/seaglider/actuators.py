@@ -37,6 +37,8 @@ LONGEST_DIVE = 1e6
 """s; a dive lasts hours."""
 MOTORS = {"pitch": "pitchCtl", "vbd": "vbdCC", "roll": "rollCtl"}
 """In the order in which they run, with the column that tells the same."""
+UNRECORDED = {"pitch": 0.1, "vbd": 10.0, "roll": 5.0}
+"""cm, cm3, deg; less between two events is the noise of the potentiometers, and oil that yields to pressure."""
 NAMES = {
     "mass_position": ("pitch motor",),
     "ballast_volume": ("VBD pump", "VBD valve"),
@@ -93,6 +95,8 @@ def moves(
         if late.any():
             warnings.append(f"{motor}_secs: {int(late.sum())} runs left out that outlast their event")
         ran = (run > 0.0) & ~late
+        if told := _unrecorded(motor, column, table, settings):
+            warnings.append(told)
         times = [time_ns + np.round(np.where(late, 0.0, seconds) * 1e9).astype(np.int64) for seconds in (begin, end)]
         before, after = (_position(motor, table.get(f"{motor}_ad{at}", blank), time_ns, settings, climb_ns)
                          for at in ("_start", ""))  # fmt: skip
@@ -136,6 +140,21 @@ def clear_of_motors(channels: list[Channel], events: Sequence[Event], warnings: 
             )
         found.append(dataclasses.replace(channel, time_ns=channel.time_ns[~near], values=channel.values[~near]))
     return found
+
+
+def _unrecorded(motor: str, column: str, table: Mapping[str, Array], settings: Mapping[str, float]) -> str:
+    """A line where a mass stands elsewhere at the start of an event than at the end of the one before; else nothing."""
+    counts = table.get(f"{motor}_ad"), table.get(f"{motor}_ad_start")
+    if counts[0] is None or counts[1] is None:
+        return ""
+    apart = np.abs((counts[1][1:] - counts[0][:-1]) * settings.get(f"{motor.upper()}_CNV", np.nan))
+    moved = apart > UNRECORDED[motor]
+    if not moved.any():
+        return ""
+    return (
+        f"GC {column}: moved {int(moved.sum())} times between events without a record, by up to "
+        f"{apart[moved].max():.3g} {CONTROLS[column].unit}; linear between the samples"
+    )
 
 
 def _position(motor: str, counts: Array, time_ns: Times, settings: Mapping[str, float], climb_ns: int | None) -> Array:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from glidercli.errors import InputError
 from glidercli.logio.seaglider.classic import check_classic
-from glidercli.logio.seaglider.heaps import check_heaps
 from glidercli.logio.seaglider.text_file import to_number
+from glidercli.netcdf_heaps import check_heaps
 
 __all__ = ["LARGEST", "NetcdfFile", "begin_of", "is_netcdf", "unpacked"]
 

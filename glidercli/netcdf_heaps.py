@@ -8,6 +8,7 @@ three reserved bytes, size of the collection; then objects of an index (2 bytes)
 
 from __future__ import annotations
 
+import mmap
 import struct
 
 __all__ = ["check_heaps"]
@@ -17,7 +18,7 @@ HEAD = 16
 """Bytes of the head of a collection, and of that of an object."""
 
 
-def check_heaps(data: bytes) -> None:
+def check_heaps(data: bytes | mmap.mmap) -> None:
     """Raise ValueError where a global heap of an HDF5 file does not add up."""
     start = data.find(MARK)
     while start >= 0:
@@ -25,7 +26,7 @@ def check_heaps(data: bytes) -> None:
         start = data.find(MARK, start + HEAD)
 
 
-def _check(data: bytes, start: int) -> None:
+def _check(data: bytes | mmap.mmap, start: int) -> None:
     if start + HEAD > len(data):
         raise ValueError("a global heap is cut short")
     (size,) = struct.unpack_from("<Q", data, start + 8)
