@@ -71,7 +71,7 @@ class Closure(NamedTuple):
         unknown = [name for name, drift in (("before", self.before), ("after", self.after)) if drift is None]
         drift = f", taken to act at the surface {' and '.join(unknown)} it, too" if unknown else ""
         return (
-            f"closure over {(self.end_ns - self.start_ns) * 1e-9:.0f} s from {start}Z: {self.error:.0f} m of "
+            f"closure over {(self.end_ns - self.start_ns) * 1e-9:.0f} s from {start}Z: {self.error:.0f} m, after "
             f"{self.way:.0f} m through water, a depth-averaged current of {self.current_east:.3f} m/s east, "
             f"{self.current_north:.3f} m/s north{drift}"
         )
