@@ -320,3 +320,11 @@ def test_a_real_recording_gives_what_its_own_reader_gives(tmp_path: Path) -> Non
     for name in ("pressure", "temperature"):
         assert log[name].time_ns.tolist() == own[name].time_ns.tolist()
         assert log[name].values.tolist() == own[name].values.tolist()
+
+
+def test_lines_may_end_in_cr_alone(tmp_path: Path) -> None:
+    (tmp_path / "a.toml").write_text(
+        '[time]\ncolumn = "t"\nformat = "iso"\n[columns]\ndepth = { column = "z", unit = "m" }\n'
+    )
+    (tmp_path / "a.csv").write_bytes(b"t,z\r2020-01-01T00:00:00Z,1\r2020-01-01T00:00:01Z,2\r")
+    assert read([tmp_path / "a.csv"]).log["depth"].values.tolist() == [1.0, 2.0]

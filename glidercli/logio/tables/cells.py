@@ -82,7 +82,11 @@ def _head(path: Path, how: File) -> list[str]:
         text = line.decode(how.encoding).lstrip("\ufeff").strip("\r\n")
     except UnicodeDecodeError:
         raise InputError(path, f"is no text in {how.encoding}; [file] encoding may name another") from None
-    names = [name.strip() for name in next(csv.reader(io.StringIO(text), delimiter=how.separator), [])]
+    text = text.split("\r", 1)[0]  # lines of old Macintosh files end in CR alone
+    try:
+        names = [name.strip() for name in next(csv.reader(io.StringIO(text), delimiter=how.separator), [])]
+    except csv.Error as fault:
+        raise InputError(path, f"line {how.skip_lines + 1} cannot be parted into names of columns: {fault}") from None
     if not any(names):
         raise InputError(path, f"line {how.skip_lines + 1} holds no names of columns")
     return names
