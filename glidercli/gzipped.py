@@ -26,15 +26,16 @@ def beginning(data: bytes, most: int) -> bytes:
     """The first bytes that the data hold, unpacked if they are gzip, as far as that goes."""
     if not is_gzip(data):
         return data[:most]
-    member, found = zlib.decompressobj(wbits=_WINDOW), b""
+    member, pieces = zlib.decompressobj(wbits=_WINDOW), list[bytes]()
     try:
         for at in range(0, len(data), PIECE):
-            found += member.decompress(data[at : at + PIECE], most - len(found))
-            if len(found) >= most or member.eof:
+            pieces.append(member.decompress(data[at : at + PIECE], most))
+            most -= len(pieces[-1])
+            if most <= 0 or member.eof:
                 break
     except zlib.error:
         pass  # what stands before the damage is told
-    return found
+    return b"".join(pieces)
 
 
 def unpacked(path: Path, data: bytes) -> tuple[bytes, bool]:

@@ -19,7 +19,7 @@ from glidercli.logio.slocum import is_slocum, read_slocum
 from glidercli.logio.tables import ENDINGS, is_table, read_table
 from glidercli.netcdf_opening import is_netcdf, opened
 
-__all__ = ["FORMATS", "check_format", "format_of", "read_file", "unrecognised"]
+__all__ = ["FORMATS", "check_format", "format_of", "read_file", "recognised"]
 
 
 def _is_mcap(path: Path) -> bool:
@@ -67,7 +67,20 @@ def format_of(path: Path, aids: Aids) -> str | None:
     return "table" if found is None and aids.columns and path.suffix.lower() in ENDINGS else found
 
 
-def unrecognised(path: Path) -> InputError:
+def recognised(path: Path, format: str | None, aids: Aids) -> str:
+    """The format that a file is read as: the one given, or by its content. Raises InputError where it can be no log."""
+    name = format or format_of(readable_file(path), aids)
+    if name is None:
+        raise _unrecognised(path)
+    return name
+
+
+def read_file(path: Path, format: str | None, aids: Aids) -> Part:
+    """What one file gives. format : its name, or None to go by content."""
+    return FORMATS[recognised(path, format, aids)].read(readable_file(path), aids)
+
+
+def _unrecognised(path: Path) -> InputError:
     """What is wrong with a file that is of no format."""
     kinds = ", ".join(FORMATS)
     if is_netcdf(path):
@@ -81,11 +94,3 @@ def unrecognised(path: Path) -> InputError:
             packed = is_gzip(stream.read(2))
         what = "is gzip data that unpack to no log: damaged, or not one" if packed else "is not a log that can be read"
     return InputError(path, f"{what}; readable are {kinds}")
-
-
-def read_file(path: Path, format: str | None, aids: Aids) -> Part:
-    """What one file gives. format : its name, or None to go by content."""
-    name = format or format_of(readable_file(path), aids)
-    if name is None:
-        raise unrecognised(path)
-    return FORMATS[name].read(readable_file(path), aids)

@@ -104,7 +104,7 @@ def _beyond(part: Part, best: Part) -> Part:
     kept = _keeping(part, outside, f"its recording is in {best.report.path.name}")
     channels = {}
     for name, channel in part.log.channels.items():
-        there = np.isin(channel.time_ns, kept.record_ns)
+        there = (channel.time_ns < first) | (channel.time_ns > last)
         if there.any():
             channels[name] = dataclasses.replace(channel, time_ns=channel.time_ns[there], values=channel.values[there])
     events = tuple(event for event in part.log.events if not first <= event.time_ns <= last)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from glidercli.errors import GliderError
 from glidercli.files import readable_file
-from glidercli.logio.formats import FORMATS, format_of, unrecognised
+from glidercli.logio.formats import FORMATS, recognised
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport
 
@@ -62,9 +62,7 @@ def _read(path: Path, format: str | None, aids: Aids) -> Part | FileReport:
     """What a file gives; where it gives nothing the report, with the format as far as it was recognised."""
     name = format
     try:
-        name = format or format_of(readable_file(path), aids)
-        if name is None:
-            raise unrecognised(path)
+        name = recognised(path, format, aids)
         part = FORMATS[name].read(readable_file(path), aids)
     except GliderError as error:
         return FileReport(path, name, 0, 0, error=str(error).removeprefix(f"{path}: "))

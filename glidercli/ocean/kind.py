@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import csv
-import gzip
 import io
-import zlib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import BinaryIO, cast
+from typing import BinaryIO
 
+from glidercli.errors import InputError
+from glidercli.gzipped import is_gzip, unpacked
 from glidercli.ocean.cnv import is_cnv
 from glidercli.origins import column_name
 
@@ -20,7 +20,6 @@ _MAGIC = (  # NetCDF-3 in its three sizes, HDF5; the header identifiers of the m
     (b"CDF\x01", NETCDF), (b"CDF\x02", NETCDF), (b"CDF\x05", NETCDF), (b"\x89HDF\r\n\x1a\n", NETCDF),
     (b"\x7f\x7f", PD0), (b"\x7f\x79", PD0), (b"\xa5\x0a", AD2CP),
 )  # fmt: skip
-_GZIP = b"\x1f\x8b"
 _HEAD = 65536  # bytes that tell a header
 _TIMES, _DEPTHS = ("time_utc", "elapsed_s"), ("depth_m", "pressure_dbar")
 
@@ -53,14 +52,15 @@ def holds_profiles(path: Path) -> bool:
             stream.seek(0)
             with io.TextIOWrapper(stream, encoding="latin-1", newline="") as text:
                 return _is_table(text)
-    except (OSError, EOFError, zlib.error, csv.Error):
+    except (InputError, OSError, csv.Error):
         return False
 
 
 def _opened(path: Path) -> BinaryIO:
+    """A file's bytes, unpacked where they are gzip."""
     with path.open("rb") as stream:
-        packed = stream.read(2) == _GZIP
-    return cast(BinaryIO, gzip.open(path)) if packed else path.open("rb")
+        packed = is_gzip(stream.read(2))
+    return io.BytesIO(unpacked(path, path.read_bytes())[0]) if packed else path.open("rb")
 
 
 def _is_table(stream: io.TextIOWrapper) -> bool:

@@ -20,11 +20,10 @@ import numpy as np
 
 from glidercli.errors import InputError
 from glidercli.log import Event
-from glidercli.logio.netcdf.pyglider import NOTE, is_pyglider, mended
+from glidercli.logio.netcdf.pyglider import is_pyglider, read_with_attitude
 from glidercli.logio.netcdf.times import times_of
-from glidercli.logio.netcdf.trajectory import Positions, Rows, found_in, part_of
+from glidercli.logio.netcdf.trajectory import Positions, Rows, part_of
 from glidercli.logio.netcdf.variables import attributes, flags_of, text_of, values_of
-from glidercli.logio.netcdf.vocabulary import STANDARD_NAMES
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import NO_TIME
 from glidercli.netcdf_opening import holds, opened, rows_of
@@ -66,11 +65,8 @@ def read_ioos(path: Path, aids: Aids = Aids()) -> Part:
             raise InputError(path, "is a grid of profiles; the measurements along time are needed")
         count = rows_of(path, file, DIMENSION)
         warnings: list[str] = []
-        found = found_in(file, DIMENSION, NAMES, STANDARD_NAMES, warnings)
         metadata = _metadata(file)
-        if is_pyglider(file):
-            found = mended(file, found, warnings)
-            metadata |= {"attitude_note": NOTE} if "pitch" in found else {}
+        found = read_with_attitude(file, DIMENSION, NAMES, metadata, warnings)
         time_ns = times_of(path, file[DIMENSION])
         positions = _positions(file, time_ns, count, warnings)
         rows = Rows(time_ns, found, positions, metadata, warnings, _current(path, file))

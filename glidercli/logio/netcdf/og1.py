@@ -21,11 +21,10 @@ import numpy as np
 
 from glidercli.channels import PHASES
 from glidercli.errors import InputError
-from glidercli.logio.netcdf.pyglider import NOTE, is_pyglider, mended
+from glidercli.logio.netcdf.pyglider import read_with_attitude
 from glidercli.logio.netcdf.times import times_of
-from glidercli.logio.netcdf.trajectory import Positions, Rows, found_in, part_of
+from glidercli.logio.netcdf.trajectory import Positions, Rows, part_of
 from glidercli.logio.netcdf.variables import Values, attributes, text_of, values_of
-from glidercli.logio.netcdf.vocabulary import STANDARD_NAMES
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import NO_TIME
 from glidercli.netcdf_opening import holds, opened, rows_of
@@ -66,11 +65,8 @@ def read_og1(path: Path, aids: Aids = Aids()) -> Part:
         if file["TIME"].dimensions != (DIMENSION,):
             raise InputError(path, f"TIME is along {file['TIME'].dimensions}; along {DIMENSION} is needed")
         warnings: list[str] = []
-        found = found_in(file, DIMENSION, NAMES, STANDARD_NAMES, warnings)
         metadata = _metadata(file)
-        if is_pyglider(file):
-            found = mended(file, found, warnings)
-            metadata |= {"attitude_note": NOTE} if "pitch" in found else {}
+        found = read_with_attitude(file, DIMENSION, NAMES, metadata, warnings)
         if "PHASE" in file.variables and file["PHASE"].dimensions == (DIMENSION,):
             found["phase"] = _phase(file, warnings)
         _tell_of_positions(file, count, warnings)

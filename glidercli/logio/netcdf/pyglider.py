@@ -8,14 +8,17 @@ of -0.52 to 0.51.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from glidercli.logio.netcdf.trajectory import found_in
 from glidercli.logio.netcdf.variables import Values, attributes
+from glidercli.logio.netcdf.vocabulary import STANDARD_NAMES
 from glidercli.units import DEGREE
 
-__all__ = ["NOTE", "is_pyglider", "mended"]
+__all__ = ["NOTE", "is_pyglider", "read_with_attitude"]
 
 ATTITUDE = ("heading", "pitch", "roll")
 NOTE = "heading, pitch and roll were interpolated to the times of the CTD by pyglider"
@@ -27,7 +30,23 @@ def is_pyglider(file: Any) -> bool:
     return {"deployment_name", "glider_instrument_name"} <= set(file.ncattrs())
 
 
-def mended(file: Any, found: dict[str, Values], warnings: list[str]) -> dict[str, Values]:
+def read_with_attitude(
+    file: Any,
+    dimension: str,
+    names: Mapping[str, Sequence[str]],
+    metadata: dict[str, str],
+    warnings: list[str],
+) -> dict[str, Values]:
+    """The channels of a file, by ``found_in``; what pyglider made of the attitude is mended and told in metadata."""
+    found = found_in(file, dimension, names, STANDARD_NAMES, warnings)
+    if is_pyglider(file):
+        found = _mended(file, found, warnings)
+        if "pitch" in found:
+            metadata["attitude_note"] = NOTE
+    return found
+
+
+def _mended(file: Any, found: dict[str, Values], warnings: list[str]) -> dict[str, Values]:
     """The values with attitude as derived, and in radians where the file's degrees can only be radians."""
     angles = {channel: found[channel] for channel in ATTITUDE if channel in found}
     made: dict[str, Values] = {c: v._replace(origin="derived") for c, v in angles.items()}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zlib
 from pathlib import Path
 from typing import Any
 
@@ -14,39 +13,17 @@ from glidercli.logio.seaglider.classic import check_classic
 from glidercli.logio.seaglider.text_file import to_number
 from glidercli.netcdf_heaps import check_heaps
 
-__all__ = ["LARGEST", "NetcdfFile", "begin_of", "is_netcdf", "unpacked"]
+__all__ = ["LARGEST", "NetcdfFile", "is_netcdf"]
 
 Array = NDArray[np.float64]
 
-CLASSIC, HDF5, GZIP = b"CDF", b"\x89HDF\r\n\x1a\n", b"\x1f\x8b"
+CLASSIC, HDF5 = b"CDF", b"\x89HDF\r\n\x1a\n"
 LARGEST = 128 * 2**20
 """Bytes of a file, unpacked, and of one variable, at most; those of a dive are a few MB."""
 OG1 = b"N_MEASUREMENTS"
 """The dimension of what was made of a dive for OceanGliders 1.0."""
 MARKS = (b"sg_data_point", b"gc_event")
 """Dimensions that a basestation's file of a dive has; their names stand in both formats as plain text."""
-
-
-def unpacked(path: Path) -> bytes:
-    """The bytes of a file, unpacked where it is gzip, as far as that goes and up to LARGEST."""
-    with path.open("rb") as stream:
-        data = stream.read(LARGEST)
-    if not data.startswith(GZIP):
-        return data
-    try:
-        return zlib.decompressobj(wbits=31).decompress(data, LARGEST)
-    except zlib.error:
-        return b""
-
-
-def begin_of(head: bytes) -> bytes:
-    """How a file begins, unpacked where it is gzip. head : its first bytes."""
-    if not head.startswith(GZIP):
-        return head
-    try:
-        return zlib.decompressobj(wbits=31).decompress(head, 16)
-    except zlib.error:
-        return b""
 
 
 def is_netcdf(data: bytes) -> bool:
