@@ -23,13 +23,13 @@ __all__ = ["FORMATS", "check_format", "format_of", "read_file", "recognised"]
 
 
 def _is_mcap(path: Path) -> bool:
-    from glidercli.logio.mcap_reader import is_mcap
+    from glidercli.logio.mcap.reader import is_mcap
 
     return is_mcap(path)
 
 
 def _read_mcap(path: Path, aids: Aids) -> Part:
-    from glidercli.logio.mcap_reader import read_mcap
+    from glidercli.logio.mcap.reader import read_mcap
 
     return read_mcap(path)
 

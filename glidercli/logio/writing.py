@@ -92,11 +92,11 @@ class Saving:
                 write_metadata(told, beside, part)
         for suffix, part in self._whole:
             if suffix == ".mcap":
-                from glidercli.logio.mcap_writer import write_mcap
+                from glidercli.logio.mcap.writer import write_mcap
 
                 write_mcap(log, part)
             else:
-                from glidercli.logio.rerun_writer import write_rerun
+                from glidercli.logio.rerun.writer import write_rerun
 
                 write_rerun(log, part)
 

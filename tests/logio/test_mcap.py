@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import InputError, OutputError
 from glidercli.log import Channel, Event, Log
-from glidercli.logio.mcap_reader import is_mcap, read_mcap_log
-from glidercli.logio.mcap_writer import write_mcap
+from glidercli.logio.mcap.reader import is_mcap, read_mcap_log
+from glidercli.logio.mcap.writer import write_mcap
 
 START = 1_313_000_000_123_456_789
 PYMCAP = Path(sys.executable).with_name("pymcap-cli")

@@ -13,8 +13,8 @@ from random_logs import AFTER_1970, assert_near, assert_same, logs
 from glidercli.errors import InputError
 from glidercli.log import Channel, Event, Log
 from glidercli.logio import read, write
-from glidercli.logio.mcap_reader import read_mcap_log
-from glidercli.logio.mcap_writer import write_mcap
+from glidercli.logio.mcap.reader import read_mcap_log
+from glidercli.logio.mcap.writer import write_mcap
 from glidercli.logio.own.csv_log import read_csv
 from glidercli.logio.own.parquet_back import read_own_parquet
 

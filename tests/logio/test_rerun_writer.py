@@ -13,8 +13,8 @@ import pytest
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import OutputError
 from glidercli.log import Channel, Event, Log
-from glidercli.logio.rerun_blueprint import _xxh32
-from glidercli.logio.rerun_writer import write_rerun
+from glidercli.logio.rerun.blueprint import _xxh32
+from glidercli.logio.rerun.writer import write_rerun
 
 START = 1_315_000_000_123_456_789
 

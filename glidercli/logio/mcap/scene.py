@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from glidercli.frames import quaternion_from_euler_arrays
 from glidercli.log import Log
 from glidercli.logio.drawable import hull_size, number
-from glidercli.logio.mcap_messages import (
+from glidercli.logio.mcap.messages import (
     MARKED_TIME,
     Array,
     Messages,

@@ -14,8 +14,8 @@ import numpy as np
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import OutputError
 from glidercli.log import Log
-from glidercli.logio import rerun_blueprint as look
-from glidercli.logio.rerun_scene import Scene, columns
+from glidercli.logio.rerun import blueprint as look
+from glidercli.logio.rerun.scene import Scene, columns
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from glidercli.frames import quaternion_from_euler_arrays
 from glidercli.log import Log
-from glidercli.logio import rerun_blueprint as look
 from glidercli.logio.drawable import hull_size, number
+from glidercli.logio.rerun import blueprint as look
 from glidercli.places import track_of_geodetic
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ import numpy as np
 
 from glidercli.errors import OutputError
 from glidercli.log import Log
-from glidercli.logio.mcap_messages import (
+from glidercli.logio.mcap.messages import (
     Messages,
     Table,
     channel_topics,
@@ -27,7 +27,7 @@ from glidercli.logio.mcap_messages import (
     schema_bytes,
     timestamp,
 )
-from glidercli.logio.mcap_scene import remarks, scene_topics
+from glidercli.logio.mcap.scene import remarks, scene_topics
 from glidercli.provenance import version
 
 if TYPE_CHECKING:

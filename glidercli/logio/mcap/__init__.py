@@ -1,0 +1,1 @@
+"""What does a Log look like in MCAP, for Foxglove and Lichtblick, and how does it come back?"""

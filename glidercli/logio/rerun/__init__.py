@@ -1,0 +1,1 @@
+"""What does a Log look like in a Rerun recording?"""
