@@ -1,7 +1,6 @@
 """How is a Log saved? One writer per ending; every output appears whole or not at all.
 
-Tables (.csv, .parquet, .nc) are written piece by piece, so that a long flight needs no more memory than a short one;
-recordings for viewers (.mcap, .rrd) need the whole log.
+All but .rrd are written piece by piece, so that a long flight needs no more memory than a short one.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ from glidercli.provenance import provenance_json
 __all__ = ["SUFFIXES", "TABLES", "Saving", "saving", "write"]
 
 TABLES = (".csv", ".parquet", ".nc")
-"""Endings that take a log in pieces."""
+"""Endings of tables."""
 PIECE = 65536
 """Samples of a channel that a table is given at once: some 20 MB of cells."""
 SUFFIXES = (".mcap", ".rrd", *TABLES)
@@ -46,7 +45,8 @@ class Saving:
 
     def __init__(self, parts: Sequence[tuple[str, Path, Path | None]], pending: contextlib.ExitStack) -> None:
         """Begin. parts : ending, file to write to, and file of the metadata beside a CSV."""
-        self._whole = [(suffix, part) for suffix, part, _ in parts if suffix not in TABLES]
+        self._whole = [part for suffix, part, _ in parts if suffix == ".rrd"]
+        self._viewers: list[Any] = []
         self._tables: list[tuple[Any, Path, Path | None]] = []
         self._span: tuple[int, int] | None = None
         self._origins: dict[str, Any] = {}
@@ -62,6 +62,10 @@ class Saving:
 
                 table = NetcdfTable(part)
             else:
+                if suffix == ".mcap":
+                    from glidercli.logio.mcap.writer import McapLog
+
+                    self._viewers.append(McapLog(pending.enter_context(part.open("wb"))))
                 continue
             self._tables.append((table, part, beside))
 
@@ -71,7 +75,9 @@ class Saving:
         return not self._whole
 
     def add(self, log: Log) -> None:
-        """Append a piece of the log, or all of it, to every table."""
+        """Append a piece of the log, or all of it, to every output that takes pieces."""
+        for viewer in self._viewers:
+            viewer.add(log)
         if not self._tables:
             return
         for piece in log.pieces(PIECE):
@@ -82,7 +88,7 @@ class Saving:
             self._span = (self._span[0] if self._span else log.start_ns, log.end_ns)
 
     def close(self, log: Log) -> None:
-        """Finish: write what needs the whole log, and its events and metadata to the tables."""
+        """Finish: write what needs the whole log, and its events and metadata to the others."""
         if "provenance" not in log.metadata:
             log = log.with_metadata(provenance=provenance_json(origin=log.origin))
         told = metadata_of(dataclasses.replace(log, channels=self._origins), self._span)
@@ -90,15 +96,12 @@ class Saving:
             table.close(told)
             if beside is not None:
                 write_metadata(told, beside, part)
-        for suffix, part in self._whole:
-            if suffix == ".mcap":
-                from glidercli.logio.mcap.writer import write_mcap
+        for viewer in self._viewers:
+            viewer.close(log)
+        for part in self._whole:
+            from glidercli.logio.rerun.writer import write_rerun
 
-                write_mcap(log, part)
-            else:
-                from glidercli.logio.rerun.writer import write_rerun
-
-                write_rerun(log, part)
+            write_rerun(log, part)
 
 
 @contextlib.contextmanager

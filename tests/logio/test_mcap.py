@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import InputError, OutputError
 from glidercli.log import Channel, Event, Log
+from glidercli.logio.mcap import writer as mcap_writer
 from glidercli.logio.mcap.reader import is_mcap, read_mcap_log
 from glidercli.logio.mcap.writer import write_mcap
 
@@ -172,3 +173,49 @@ def test_most_of_a_cut_file_is_recovered(tmp_path: Path) -> None:
     assert n > 2500  # of 5000: three quarters less the chunk that was cut and the bulky first one
     assert back["depth"].values.tobytes() == log["depth"].values[:n].tobytes()
     assert back.metadata == log.metadata
+
+
+@settings(deadline=None, max_examples=60)
+@given(log=logs(), samples=st.integers(1, 3))
+def test_a_log_in_pieces_comes_back_to_the_last_bit(
+    log: Log, samples: int, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    path = tmp_path_factory.mktemp("mcap") / "a.mcap"
+    with pytest.MonkeyPatch.context() as patch, path.open("wb") as stream:
+        patch.setattr(mcap_writer, "PIECE", samples)
+        file = mcap_writer.McapLog(stream)
+        file.add(log)
+        file.close(log)
+    assert_same(read_mcap_log(path), log)
+
+
+def test_pieces_show_what_the_whole_shows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The viewers' topics hold the same messages, however the log is cut."""
+    from mcap.reader import make_reader
+
+    log = full_log(3000)
+    odd = Channel("pitch", log["pitch"].time_ns[5::7] + 3, 0.1 * np.ones(len(log["pitch"].time_ns[5::7])), "derived")
+    found = []
+    for piece in (100_000, 211):
+        monkeypatch.setattr(mcap_writer, "PIECE", piece)
+        write_mcap(log.with_channels(odd), tmp_path / "a.mcap")
+        with (tmp_path / "a.mcap").open("rb") as stream:
+            topics: dict[str, list[tuple[int, bytes]]] = {}
+            for _, channel, message in make_reader(stream).iter_messages():
+                topics.setdefault(channel.topic, []).append((message.log_time, message.data))
+        found.append(topics)
+    assert found[0] == found[1]
+
+
+def test_attachments_are_the_files(tmp_path: Path) -> None:
+    from mcap.reader import make_reader
+
+    raw = tmp_path / "raw.gli"
+    raw.write_bytes(np.random.default_rng(1).bytes(3_000_000))
+    write_mcap(full_log(20), tmp_path / "a.mcap", [raw])
+    with (tmp_path / "a.mcap").open("rb") as stream:
+        found = {item.name: item.data for item in make_reader(stream, validate_crcs=True).iter_attachments()}
+    assert found["raw.gli"] == raw.read_bytes()
+    assert found["provenance.json"] == b'{"program": "glidercli"}'
+    doctor = subprocess.run([PYMCAP, "doctor", tmp_path / "a.mcap"], capture_output=True, text=True, check=False)
+    assert doctor.returncode == 0, doctor.stdout

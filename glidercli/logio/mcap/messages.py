@@ -4,10 +4,6 @@ A message whose fields are all fixed64 always has the same length. So one *templ
 values (`slot`), serialised once, and the columns of a table are laid over the marks: one row of bytes per message.
 A timestamp keeps its length too, because both of its varints are written five bytes long (any decoder accepts a varint
 with leading zero groups; five bytes hold every time from 1970 to 2262). Reading lays the same template over the rows.
-
-The messages of glider's own topics are described at run time from the channel table: `timestamp`, one double per
-channel in SI units (``pitch_rad``), and for angles a second one in degrees for people (``pitch_deg``). NaN marks a
-channel without a sample at that time. Field numbers follow the channel table, so that files agree with each other.
 """
 
 from __future__ import annotations
@@ -20,9 +16,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.channels import CHANNELS, ChannelSpec
-from glidercli.log import Event, Log
-
 if TYPE_CHECKING:
     from google.protobuf.descriptor import Descriptor
 
@@ -31,24 +24,19 @@ Times = NDArray[np.int64]
 Rows = NDArray[np.uint8]
 
 __all__ = [
-    "EVENT_TOPIC",
     "MARKED_TIME",
     "Messages",
     "Table",
     "all_times",
-    "channel_topics",
     "decoded",
-    "event_topics",
-    "field_names",
     "message",
     "message_class",
+    "own_class",
     "schema_bytes",
     "slot",
-    "template_of",
     "timestamp",
 ]
 
-EVENT_TOPIC = "/glider/event"
 BILLION = 1_000_000_000
 MARKED_TIME = {"seconds": (1 << 34) + 1_234_567_891, "nanos": 987_654_321}
 """The timestamp of a template: both values need five varint bytes."""
@@ -205,12 +193,11 @@ def all_times(times: Sequence[Times]) -> Times:
     union = times[0]
     for more in times[1:]:
         if not np.array_equal(union, more):
-            union = np.sort(np.concatenate([union, more]), kind="stable")
-            union = union[np.diff(union, prepend=union[0] - 1) > 0]
+            union = np.union1d(union, more)
     return union
 
 
-def _own_class(name: str, fields: Sequence[tuple[str, int, int]]) -> type[Any]:
+def own_class(name: str, fields: Sequence[tuple[str, int, int]]) -> type[Any]:
     """A message class glider.NAME of a timestamp and fields (name, number, type)."""
     from google.protobuf import timestamp_pb2
     from google.protobuf.descriptor_pb2 import FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet
@@ -227,61 +214,3 @@ def _own_class(name: str, fields: Sequence[tuple[str, int, int]]) -> type[Any]:
     timestamp_pb2.DESCRIPTOR.CopyToProto(files.file.add())
     files.file.append(file)
     return message_class(files.SerializeToString(), f"glider.{name}")
-
-
-def field_names(spec: ChannelSpec) -> tuple[str, ...]:
-    """Names of a channel's fields: SI first (``pitch_rad``), then degrees where it is an angle (``pitch_deg``)."""
-    si = spec.name if spec.unit == "1" else f"{spec.name}_{spec.unit.replace('/', '_')}"
-    return (si, spec.column) if spec.unit.startswith("rad") else (si,)
-
-
-def template_of(kind: type[Any]) -> tuple[Any, list[str]]:
-    """A template of one of glider's own messages, and the names of its doubles in the order of their marks."""
-    template = kind(timestamp=MARKED_TIME)
-    names = [field.name for field in kind.DESCRIPTOR.fields if field.name != "timestamp"]
-    for index, name in enumerate(names):
-        setattr(template, name, slot(index))
-    return template, names
-
-
-def channel_topics(log: Log) -> list[Table]:
-    """The topics /glider/GROUP: one for each family of channels with a sample, at all sample times of the family."""
-    from google.protobuf.descriptor_pb2 import FieldDescriptorProto
-
-    topics = []
-    for group in dict.fromkeys(spec.group for spec in CHANNELS.values()):
-        family = [spec for spec in CHANNELS.values() if spec.group == group]
-        kept = [(i, spec) for i, spec in enumerate(family) if spec.name in log and len(log[spec.name])]
-        if not kept:
-            continue
-        time_ns = all_times([log[spec.name].time_ns for _, spec in kept])
-        fields, columns, notes = [], [], {}
-        for i, spec in kept:
-            values = np.full(len(time_ns), np.nan)
-            values[np.searchsorted(time_ns, log[spec.name].time_ns)] = log[spec.name].values
-            for offset, (name, factor) in enumerate(zip(field_names(spec), (1.0, spec.factor), strict=False)):
-                fields.append((name, 2 + 2 * i + offset, int(FieldDescriptorProto.TYPE_DOUBLE)))
-                columns.append(values * factor)
-                notes[name] = f"{spec.meaning}; {log[spec.name].origin}"
-        template, _ = template_of(_own_class(group.capitalize(), fields))
-        topics.append(Table(f"/glider/{group}", time_ns, template, columns, notes))
-    return topics
-
-
-def event_topics(events: Sequence[Event]) -> list[Messages]:
-    """The topic /glider/event, or none without events; depth is NaN where it is unknown."""
-    from google.protobuf.descriptor_pb2 import FieldDescriptorProto as F
-
-    fields = [("name", 2, F.TYPE_STRING), ("time_ns", 3, F.TYPE_INT64), ("depth_m", 4, F.TYPE_DOUBLE)]
-    kind = _own_class("Event", [(name, number, int(type_)) for name, number, type_ in fields])
-    messages = [
-        kind(
-            timestamp=timestamp(event.time_ns),
-            name=event.name,
-            time_ns=event.time_ns,
-            depth_m=np.nan if event.depth is None else event.depth,
-        )
-        for event in events
-    ]
-    times = np.array([event.time_ns for event in events], np.int64)
-    return [Messages(EVENT_TOPIC, times, messages)] if messages else []

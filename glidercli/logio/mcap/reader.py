@@ -17,8 +17,10 @@ from glidercli.channels import CHANNELS
 from glidercli.errors import InputError
 from glidercli.files import readable_file
 from glidercli.log import Channel, Event, Log, Origin
-from glidercli.logio.mcap.messages import EVENT_TOPIC, Array, decoded, field_names, message_class, template_of
-from glidercli.logio.mcap.writer import FORMAT, MAGIC
+from glidercli.logio.mcap.file import MAGIC
+from glidercli.logio.mcap.messages import Array, decoded, message_class
+from glidercli.logio.mcap.topics import EVENT_TOPIC, field_names, template_of
+from glidercli.logio.mcap.writer import FORMAT
 from glidercli.logio.reader import Part
 from glidercli.logio.report import FileReport
 
