@@ -57,7 +57,7 @@ class Sink:
     @property
     def piece(self) -> Callable[[Log], None] | None:
         """What takes the log in pieces, if only to forget them; None where something needs the whole of it."""
-        if self._pictures or self._stdout or not self._saving.takes_pieces:
+        if self._pictures or self._stdout:
             return None
         return self._saving.add
 

@@ -1,6 +1,6 @@
 """How is a Log saved? One writer per ending; every output appears whole or not at all.
 
-All but .rrd are written piece by piece, so that a long flight needs no more memory than a short one.
+All are written piece by piece, so that a long flight needs no more memory than a short one.
 """
 
 from __future__ import annotations
@@ -45,7 +45,6 @@ class Saving:
 
     def __init__(self, parts: Sequence[tuple[str, Path, Path | None]], pending: contextlib.ExitStack) -> None:
         """Begin. parts : ending, file to write to, and file of the metadata beside a CSV."""
-        self._whole = [part for suffix, part, _ in parts if suffix == ".rrd"]
         self._viewers: list[Any] = []
         self._tables: list[tuple[Any, Path, Path | None]] = []
         self._span: tuple[int, int] | None = None
@@ -61,21 +60,20 @@ class Saving:
                 from glidercli.logio.own.netcdf_log import NetcdfTable
 
                 table = NetcdfTable(part)
-            else:
-                if suffix == ".mcap":
-                    from glidercli.logio.mcap.writer import McapLog
+            elif suffix == ".mcap":
+                from glidercli.logio.mcap.writer import McapLog
 
-                    self._viewers.append(McapLog(pending.enter_context(part.open("wb"))))
+                self._viewers.append(McapLog(pending.enter_context(part.open("wb"))))
+                continue
+            else:
+                from glidercli.logio.rerun.writer import RerunLog
+
+                self._viewers.append(RerunLog(part))
                 continue
             self._tables.append((table, part, beside))
 
-    @property
-    def takes_pieces(self) -> bool:
-        """Whether no output needs the whole log."""
-        return not self._whole
-
     def add(self, log: Log) -> None:
-        """Append a piece of the log, or all of it, to every output that takes pieces."""
+        """Append a piece of the log, or all of it, to every output."""
         for viewer in self._viewers:
             viewer.add(log)
         if not self._tables:
@@ -88,7 +86,7 @@ class Saving:
             self._span = (self._span[0] if self._span else log.start_ns, log.end_ns)
 
     def close(self, log: Log) -> None:
-        """Finish: write what needs the whole log, and its events and metadata to the others."""
+        """Finish: write what can be told at the end only, events and metadata."""
         if "provenance" not in log.metadata:
             log = log.with_metadata(provenance=provenance_json(origin=log.origin))
         told = metadata_of(dataclasses.replace(log, channels=self._origins), self._span)
@@ -98,10 +96,6 @@ class Saving:
                 write_metadata(told, beside, part)
         for viewer in self._viewers:
             viewer.close(log)
-        for part in self._whole:
-            from glidercli.logio.rerun.writer import write_rerun
-
-            write_rerun(log, part)
 
 
 @contextlib.contextmanager

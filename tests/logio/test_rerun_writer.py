@@ -13,7 +13,7 @@ import pytest
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import OutputError
 from glidercli.log import Channel, Event, Log
-from glidercli.logio.rerun.blueprint import _xxh32
+from glidercli.logio.rerun.settling import _xxh32
 from glidercli.logio.rerun.writer import write_rerun
 
 START = 1_315_000_000_123_456_789

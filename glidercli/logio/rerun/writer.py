@@ -1,33 +1,31 @@
-"""Writes a Log as one Rerun recording (.rrd): the flight in three dimensions, every channel as a plot, its origin."""
+"""How does a Log become a Rerun recording (.rrd)? Piece by piece: the flight in three dimensions, channels as plots."""
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 import json
-import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import OutputError
 from glidercli.log import Log
-from glidercli.logio.rerun import blueprint as look
-from glidercli.logio.rerun.scene import Scene, columns
+from glidercli.logio.rerun.about import about
+from glidercli.logio.rerun.blueprint import blueprint
+from glidercli.logio.rerun.plots import Plots
+from glidercli.logio.rerun.scene import Scene
+from glidercli.logio.rerun.settling import Settled, columns, identified, row, settle
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
-__all__ = ["write_rerun"]
+__all__ = ["RerunLog", "write_rerun"]
 
-ORIGINS = {
-    "simulated": "Computed by a model. Nothing here was measured.",
-    "measured": "Recorded by an instrument at sea. Channels that were computed from it are named below.",
-    "reconstruction": "Rebuilt from published values. It is not a recording.",
-    "derived": "Computed from measured channels.",
-}
+PIECE = 65536
+"""Samples of a channel that go into one chunk."""
 
 
 def write_rerun(log: Log, path: Path) -> None:
@@ -37,103 +35,87 @@ def write_rerun(log: Log, path: Path) -> None:
     /GROUP/NAME in table units (degrees, dbar, cm3), depth negative down; the scene stands under /world in NED, m.
     Raises OutputError for a log without a single sample.
     """
-    import rerun as rr
-
-    log = log.sliced(None, None)  # without channels that are empty
-    if not log.channels:
-        raise OutputError(path, "not written: the log holds no sample")
-    rr.set_strict_mode(True)
-    digest, scene = _digest(log), Scene(log)
-    page = rr.TextDocument(_about(log, scene.draw()), media_type=rr.MediaType.MARKDOWN)
-    chunks = [*_header(log), *_plots(log), *scene.chunks, look.row("/about", page)]
-    blueprint: Any = look.Settled(log, scene.camera, scene.has_hull, scene.has_plan, digest)
-    recording = rr.RecordingStream("glider", recording_id=digest[:32], send_properties=False)
-    recording.set_log_time_enabled(False)
-    recording.save(path, default_blueprint=blueprint)
-    rr.send_chunks(look.identified(chunks, digest), recording=recording)
-    recording.flush()
-    recording.disconnect()
-    look.settle(path, digest)
+    file = RerunLog(path)
+    file.add(log)
+    file.close(log)
 
 
-def _digest(log: Log) -> str:
-    """SHA-256 of all that a log holds, hexadecimal; the order of channels does not count."""
-    told = [log.origin, [*log.metadata.items()], [(e.name, e.time_ns, e.depth) for e in log.events]]
-    whole = hashlib.sha256(json.dumps(told).encode())
-    for name, channel in sorted(log.channels.items()):
-        whole.update(f"{name} {channel.origin} {len(channel)} ".encode())
-        whole.update(channel.time_ns.tobytes() + channel.values.tobytes())
-    return whole.hexdigest()
+class RerunLog:
+    """A log as a Rerun recording, piece by piece; the same log in the same pieces gives the same bytes."""
 
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._hash = hashlib.sha256()
+        self._first: Log | None = None
+        self._sent = 0
 
-def _header(log: Log) -> Iterator[Chunk]:
-    """Name and start of the recording, and its events."""
-    import rerun as rr
+    def add(self, log: Log) -> None:
+        """Append a piece, or the whole; all have the same channels, and the first has samples of each that comes."""
+        self._digest(log)
+        if not any(map(len, log.channels.values())):
+            return
+        if self._first is None:
+            self._begin(log.sliced(None, None))  # without channels that are empty
+        for piece in log.pieces(PIECE):
+            self._send([*self._plots.values(piece), *self._scene.moving(piece)], self._key)
+        self._end_ns = log.end_ns
 
-    name = f"{log.kind} {np.datetime64(log.start_ns // 10**9, 's')} UTC"
-    yield look.row("/__properties", rr.archetypes.RecordingInfo(start_time=log.start_ns, name=name))
-    if log.events:
-        texts = [e.name if e.depth is None else f"{e.name}, depth {e.depth:.1f} m" for e in log.events]
-        times = np.array([e.time_ns for e in log.events], dtype=np.int64)
-        yield columns("/events", log.start_ns, times, rr.TextLog.columns(text=texts, level=["INFO"] * len(texts)))
+    def close(self, log: Log) -> None:
+        """Finish the file. log : its last piece, with all events and the final metadata."""
+        if self._first is None:
+            raise OutputError(self._path, "not written: the log holds no sample")
+        told = [log.origin, [*log.metadata.items()], [(e.name, e.time_ns, e.depth) for e in log.events]]
+        self._hash.update(json.dumps(told).encode())
+        key = self._hash.hexdigest()
+        whole = dataclasses.replace(log, channels=self._first.channels)
+        drawn = self._scene.still(log)
+        import rerun as rr
 
-
-def _plots(log: Log) -> Iterator[Chunk]:
-    """Each channel as a line in table units; heading as points, which do not join 359 to 0; phases as states."""
-    import rerun as rr
-
-    for name in (name for name in CHANNELS if name in log):
-        spec, channel, entity = CHANNELS[name], log[name], f"/{CHANNELS[name].group}/{name}"
-        if name == "phase":
-            yield look.row(entity, rr.StateConfiguration(values=PHASES, colors=[*look.PHASE_COLOURS.values()]))
-            changed = np.flatnonzero(np.diff(channel.values, prepend=-1.0))
-            states = rr.StateChange.columns(state=[PHASES[int(value)] for value in channel.values[changed]])
-            yield columns(entity, log.start_ns, channel.time_ns[changed], states)
-            continue
-        style: dict[str, Any] = {"names": look.series_name(name), "colors": look.COLOURS.get(name, look.GREY)}
-        dots = name == "heading"
-        yield look.row(
-            entity, rr.SeriesPoints(marker_sizes=1.5, **style) if dots else rr.SeriesLines(widths=1.5, **style)
+        page = rr.TextDocument(about(whole, drawn.notes), media_type=rr.MediaType.MARKDOWN)
+        self._send([*self._header(log), *drawn.chunks, row("/about", page)], key)
+        views = blueprint(
+            whole, self._end_ns - self._first.start_ns, drawn.camera, self._scene.has_hull, drawn.has_plan
         )
-        values = channel.values * (-1.0 if name == "depth" else spec.factor)
-        yield columns(entity, log.start_ns, channel.time_ns, rr.Scalars.columns(scalars=values))
+        settled: Any = Settled(views, key)
+        rr.send_blueprint(settled, recording=self._recording)
+        self._recording.flush()
+        self._recording.disconnect()
+        settle(self._path, self._key[:32], key)
 
+    def _begin(self, log: Log) -> None:
+        import rerun as rr
 
-def _about(log: Log, notes: list[str]) -> str:
-    """The about page, Markdown: where the values come from, how they are drawn, metadata, provenance."""
-    lines = [f"# {log.kind}", "", ORIGINS[log.origin], ""]
-    told = {key: value for key, value in log.metadata.items() if key != "provenance"}
-    if remade := told.pop("reconstruction", ""):
-        lines += [f"**Reconstruction**: {_plain(remade)}", ""]
-    others: dict[str, list[str]] = {}
-    for name in (name for name in CHANNELS if name in log):
-        if log[name].origin != log.origin:
-            others.setdefault(log[name].origin, []).append(name.replace("_", " "))
-    lines += [f"- **{origin}**: {', '.join(names)}" for origin, names in others.items()]
-    lines += ["", "## How it is drawn", "", *(f"- {note}" for note in notes)]
-    for title, entries in (("Metadata", told), ("Provenance", _record(log))):
-        lines += ["", f"## {title}", "", *_entries(entries)] if entries else []
-    return "\n".join(lines) + "\n"
+        rr.set_strict_mode(True)
+        self._first, self._key = log, self._hash.hexdigest()
+        self._plots, self._scene = Plots(log), Scene(log)
+        self._recording = rr.RecordingStream("glider", recording_id=self._key[:32], send_properties=False)
+        self._recording.set_log_time_enabled(False)
+        self._recording.save(self._path)
+        self._send([*self._plots.styles(), *self._scene.hull()], self._key)
 
+    def _send(self, chunks: list[Chunk], key: str) -> None:
+        """Write chunks; their ids come from the key."""
+        import rerun as rr
 
-def _record(log: Log) -> dict[str, Any]:
-    """The provenance as a dictionary; a record that is no JSON object stands as it is, under "record"."""
-    text = log.metadata.get("provenance", "{}")
-    try:
-        record = json.loads(text)
-    except ValueError:
-        record = text
-    return record if isinstance(record, dict) else {"record": text}
+        rr.send_chunks(identified(chunks, key, self._sent), recording=self._recording)
+        self._recording.flush()
+        self._sent += len(chunks)
 
+    def _digest(self, log: Log) -> None:
+        """Take all samples of a piece into the hash; the order of channels does not count."""
+        for name, channel in sorted(log.channels.items()):
+            if len(channel):
+                self._hash.update(f"{name} {channel.origin} {len(channel)} ".encode())
+                self._hash.update(channel.time_ns.tobytes() + channel.values.tobytes())
 
-def _entries(entries: dict[str, Any]) -> Iterator[str]:
-    """A Markdown list of keys and values, which wraps where a table would be cut off; an item each of many inputs."""
-    for key, value in entries.items():
-        for one in value if isinstance(value, list) and key != "command" else [value]:
-            words = [f"{k} {v}" for k, v in one.items()] if isinstance(one, dict) else one
-            yield f"- **{_plain(key)}**: {_plain(' '.join(map(str, words)) if isinstance(words, list) else str(words))}"
+    def _header(self, log: Log) -> Iterator[Chunk]:
+        """Name and start of the recording, and its events."""
+        import rerun as rr
 
-
-def _plain(text: str) -> str:
-    """Text as it stands, on one line, whatever Markdown would make of its signs."""
-    return re.sub(r"([\\`*_<>|\[\]#~])", r"\\\1", " ".join(text.split()))
+        start_ns = self._scene.zero_ns
+        name = f"{log.kind} {np.datetime64(start_ns // 10**9, 's')} UTC"
+        yield row("/__properties", rr.archetypes.RecordingInfo(start_time=start_ns, name=name))
+        if log.events:
+            texts = [e.name if e.depth is None else f"{e.name}, depth {e.depth:.1f} m" for e in log.events]
+            times = np.array([e.time_ns for e in log.events], dtype=np.int64)
+            yield columns("/events", start_ns, times, rr.TextLog.columns(text=texts, level=["INFO"] * len(texts)))
