@@ -11,7 +11,7 @@ from typing import Any
 
 from glidercli.errors import InputError, OutputError
 
-__all__ = ["atomic", "check_not_inputs", "check_outputs", "metadata_path", "read_toml", "readable_file"]
+__all__ = ["atomic", "check_not_inputs", "check_outputs", "leftovers", "metadata_path", "read_toml", "readable_file"]
 
 _LONGEST_NAME = 200
 """bytes; file systems take 255, and the name while writing and that of the metadata are longer."""
@@ -101,7 +101,7 @@ def atomic(path: Path, force: bool) -> Iterator[Path]:
     if path.exists() and not force:
         raise OutputError(path, "exists; --force replaces it")
     target = path.resolve()  # a link stays, what it points to is replaced
-    beside = target.with_name(f".{path.stem}.part-{os.getpid()}{path.suffix}")
+    beside = target.with_name(f".{target.stem}.part-{os.getpid()}{target.suffix}")
     try:
         beside.touch()  # a place that cannot be written shows here, before any writer's own words
         yield beside
@@ -114,3 +114,25 @@ def atomic(path: Path, force: bool) -> Iterator[Path]:
         raise OutputError(path, f"cannot be written: {error}; is the disk full?") from error
     finally:
         beside.unlink(missing_ok=True)
+
+
+def leftovers(path: Path) -> list[Path]:
+    """Parts of this output that processes left which were killed while they wrote it."""
+    target = path.resolve()
+    start, end = f".{target.stem}.part-", target.suffix
+    left = []
+    for file in sorted(target.parent.iterdir()) if target.parent.is_dir() else ():
+        number = file.name.removeprefix(start).removesuffix(end)
+        if file.name == f"{start}{number}{end}" and number.isdigit() and not _runs(int(number)):
+            left.append(file)
+    return left
+
+
+def _runs(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):
+        return True
+    return True

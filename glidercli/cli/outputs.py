@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from glidercli.cli.printing import say
+from glidercli.cli.printing import say, warn
 from glidercli.errors import UsageError
 from glidercli.log import Log
 
@@ -18,20 +18,32 @@ if TYPE_CHECKING:
 __all__ = ["Sink", "check_log_outputs", "log_sink", "write_log"]
 
 _STDOUT = Path("-")
+RECOVERY = {
+    ".mcap": "`pymcap-cli recover {part} -o FILE.mcap` brings back what stands in whole chunks",
+    ".rrd": "`rerun {part}` shows what is there, without panels",
+    ".csv": "all but its last line is good",
+}
+"""What can be done with a part of an output, by its ending."""
 
 
-def check_log_outputs(paths: Sequence[Path], force: bool, json: bool, pictures: bool = False) -> None:
-    """Refuse outputs that could not be written; standard output holds one document only.
+def check_log_outputs(paths: Sequence[Path], force: bool, json: bool, quiet: bool, pictures: bool = False) -> None:
+    """Refuse outputs that could not be written, and tell of parts that killed runs left of them.
+
+    Standard output holds one document only.
 
     pictures : whether the command draws figures, too.
     """
-    from glidercli.files import check_outputs
+    from glidercli.files import check_outputs, leftovers
     from glidercli.logio import SUFFIXES
     from glidercli.pictures import PICTURES
 
     if json and _STDOUT in paths:
         raise UsageError("-o - and --json both want stdout; leave one out")
     check_outputs(paths, SUFFIXES + PICTURES if pictures else SUFFIXES, force)
+    for path in paths:
+        for part in leftovers(path) if path != _STDOUT else ():
+            how = RECOVERY.get(path.suffix.lower(), "cannot be read")
+            warn([f"{part}: left by a run that was killed; {how.format(part=part)}; remove it then"], quiet)
 
 
 def write_log(log: Log, paths: Sequence[Path], force: bool, quiet: bool) -> None:

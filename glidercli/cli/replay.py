@@ -35,7 +35,7 @@ def replay(
     from glidercli.logio import replay as play
 
     outputs = output or []
-    check_log_outputs(outputs, force, json)
+    check_log_outputs(outputs, force, json, quiet)
     files = [path for path in outputs if path != Path("-")]
     with progress("reading", "files", quiet) as bar:
         played = play(

@@ -85,7 +85,7 @@ def simulate(
     from glidercli.simulation.start import read_trim
 
     outputs = output or []
-    check_log_outputs(outputs, force, json, pictures=True)
+    check_log_outputs(outputs, force, json, quiet, pictures=True)
     source = LogSource(cache, columns)
     water, flow = read_water(ctd, source), read_water(adcp, source)
     logs = read_logs({"controls": controls, "initial": initial}, source)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
+import errno
 import hashlib
 import json
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -78,11 +80,12 @@ class RerunLog:
         )
         settled: Any = Settled(views, key)
         rr.send_blueprint(settled, recording=self._recording)
-        self._recording.flush()
+        self._flush()
         self._recording.disconnect()
         settle(self._path, self._key[:32], key)
 
     def _begin(self, log: Log) -> None:
+        os.environ.setdefault("RUST_LOG", "off")  # faults are ours to tell
         import rerun as rr
 
         rr.set_strict_mode(True)
@@ -98,8 +101,14 @@ class RerunLog:
         import rerun as rr
 
         rr.send_chunks(identified(chunks, key, self._sent), recording=self._recording)
-        self._recording.flush()
+        self._flush()
         self._sent += len(chunks)
+
+    def _flush(self) -> None:
+        try:
+            self._recording.flush()
+        except RuntimeError:  # all that Rerun tells
+            raise OSError(errno.ENOSPC, "the writer of Rerun gave up; is the disk full?") from None
 
     def _digest(self, log: Log) -> None:
         """Take all samples of a piece into the hash; the order of channels does not count."""
