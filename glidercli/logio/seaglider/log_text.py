@@ -21,7 +21,7 @@ from glidercli.logio.records import NO_TIME
 from glidercli.logio.seaglider.actuators import counts_of_vbd, moves, surface_pump
 from glidercli.logio.seaglider.columns import SEA, fixes
 from glidercli.logio.seaglider.gathering import Gathering
-from glidercli.logio.seaglider.states import number_of, phase, take_states
+from glidercli.logio.seaglider.states import States, number_of, phase, take_states
 from glidercli.logio.seaglider.text_file import TextFile, read_text, to_number, utc_ns
 
 __all__ = ["declination_of", "read_log"]
@@ -48,9 +48,12 @@ def read_log(path: Path, data: bytes) -> Part:
     gathering.records = sum(key not in sampled for key, _ in lines)
     gathering.drop("", "a setting, no sample", sum(key not in sampled and key.startswith("$") for key, _ in lines))
     gathering.drop("", "no line of the form $KEY,value", sum(not key.startswith("$") for key, _ in lines))
-    climb_ns = _states(text, [fields for key, fields in lines if key == "$STATE"], gathering)
+    states = _states(text, [fields for key, fields in lines if key == "$STATE"], gathering)
     head = next((fields for key, fields in lines if key == "$GCHEAD"), OLD_HEAD.split(","))
-    _events(text, head, [fields for key, fields in lines if key == "$GC"], settings, climb_ns, gathering)
+    rows = [fields for key, fields in lines if key == "$GC"]
+    events_ns = _events(text, head, rows, settings, states.end_of_dive_ns, gathering)
+    if len(states.time_ns):
+        gathering.channels.append(phase(states, events_ns))
     pumped = [fields for key, fields in lines if key == "$SM_CCo"]
     gathering.records += len(pumped)
     gathering.drop("$SM_CCo", "the pump's run at the surface, events and no sample", len(pumped))
@@ -68,14 +71,11 @@ def declination_of(lines: list[str]) -> float | None:
     return known[-1] if known else None
 
 
-def _states(text: TextFile, rows: list[list[str]], gathering: Gathering) -> int | None:
-    """Take the states; the end of the dive, UTC ns, or None."""
+def _states(text: TextFile, rows: list[list[str]], gathering: Gathering) -> States:
+    """Take the states; their phases are taken with the motor events."""
     time_ns = _since(text.start_ns, [to_number(row[0]) for row in rows])
     numbers = np.array([number_of(row[1].strip()) if len(row) > 1 else -1 for row in rows], dtype=np.int64)
-    states = take_states(gathering, "$STATE", time_ns, numbers)
-    if len(states.time_ns):
-        gathering.channels.append(phase(states, time_ns[:0]))
-    return states.end_of_dive_ns
+    return take_states(gathering, "$STATE", time_ns, numbers)
 
 
 def _events(
@@ -85,8 +85,8 @@ def _events(
     settings: dict[str, float],
     climb_ns: int | None,
     gathering: Gathering,
-) -> None:
-    """Take the motor events: depths at their starts, and where the motors stood."""
+) -> Times:
+    """Take the motor events: depths at their starts, and where the motors stood; the starts, (n,) UTC ns."""
     names = [name.strip() for name in head]
     whole = [row for row in rows if len(row) == len(names)]
     gathering.records += len(rows) - len(whole)
@@ -96,7 +96,7 @@ def _events(
     if "st_secs" not in table:
         gathering.records += len(whole)
         gathering.drop("$GC", "no column st_secs", len(whole))
-        return
+        return np.array([], np.int64)
     start = table.pop("st_secs")
     if "end_secs" in table:
         table["end_secs"] = table["end_secs"] - start
@@ -112,6 +112,7 @@ def _events(
     gathering.events += found.events
     depths = np.isin(time_ns, channels[-1].time_ns if "depth" in table else time_ns[:0])
     gathering.keep("$GC", found.first_ns, found.gave | depths, "no depth or position, and no motor ran")
+    return time_ns
 
 
 def _fixes(rows: list[list[str]], gathering: Gathering) -> None:

@@ -48,7 +48,7 @@ def is_text(data: bytes) -> bool:
 def read_text(path: Path, data: bytes) -> TextFile:
     """Take a text apart. Raises InputError where no start of the dive is told."""
     header: dict[str, str] = {}
-    lines = [line.strip() for line in data[:LONGEST].decode("latin-1").replace("\r", "").split("\n")]
+    lines = [line.strip() for line in data[:LONGEST].decode("latin-1").replace("\r", "\n").split("\n")]
     for number, line in enumerate(lines):
         key, _, value = line.lstrip("%").partition(":")
         if key.strip() == "data":
