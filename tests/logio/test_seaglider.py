@@ -288,6 +288,8 @@ def test_heading_without_magnetic_variation_is_left_out(tmp_path: Path) -> None:
         ("$GPS,060180,184309,7018.048,835.862,16,1.5,16,1.1", "$GPS: clock not set: more than 30 days from the dive"),
         ("$GPS,040516,190000,7018.048,835.862,16,99.0,99,1.1", "$GPS: no usable value"),
         ("$GPS,040516,190000,0.0,0.0,16,1.0,99,1.1", "$GPS: no usable value"),
+        ("$GPS,040516,190000,7061.048,835.862,16,1.0,99,1.1", "$GPS: no usable value"),
+        ("$GPS,040516,190000", "$GPS: no value"),
         ("$STATE,1700,begin dreaming", "$STATE: unknown state"),
         ("$STATE,soon,begin surface", "$STATE: time cannot be read"),
         ("$SM_CCo,soon,1,2", "$SM_CCo: the pump's run at the surface, events and no sample"),

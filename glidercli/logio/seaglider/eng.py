@@ -12,13 +12,12 @@ from glidercli.gzipped import unpacked
 from glidercli.log import Log
 from glidercli.logio.quantities import channel_of
 from glidercli.logio.reader import Part
-from glidercli.logio.records import NO_TIME
 from glidercli.logio.seaglider.actuators import clear_of_motors
 from glidercli.logio.seaglider.columns import DEPTH_CM, ENGINEERING, cells, engineering
 from glidercli.logio.seaglider.gathering import Dive, Gathering
 from glidercli.logio.seaglider.log_text import declination_of, read_log
 from glidercli.logio.seaglider.states import held
-from glidercli.logio.seaglider.text_file import is_text, read_text
+from glidercli.logio.seaglider.text_file import is_text, read_text, since
 
 __all__ = ["read_eng"]
 
@@ -26,8 +25,6 @@ TIME = "elaps_t"
 COLUMNS = ("depth", "head", *ENGINEERING)
 BESIDE = (".log", ".LOG", ".log.gz")
 """Endings of the .log of a dive."""
-LONGEST = 1e8
-"""s; times further from the start of the dive than three years are no times."""
 
 
 def read_eng(path: Path, data: bytes) -> Part:
@@ -42,10 +39,7 @@ def read_eng(path: Path, data: bytes) -> Part:
     gathering.records += len(split) - len(rows)
     gathering.drop("", "wrong number of fields", len(split) - len(rows))
     table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if name in (TIME, *COLUMNS)}
-    elapsed = table.pop(TIME)
-    sane = np.abs(elapsed) < LONGEST
-    since = np.where(sane, np.round(np.where(sane, elapsed, 0.0) * 1e6), 0.0).astype(np.int64) * 1000
-    time_ns = np.where(sane, text.start_ns + since, NO_TIME)
+    time_ns = since(text.start_ns, table.pop(TIME))
     table = cells({name: name for name in table}, table, gathering.warnings)
     good = gathering.usable("", time_ns, table)
     time_ns, table = time_ns[good], {name: values[good] for name, values in table.items()}

@@ -15,14 +15,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.logio.quantities import channel_of
+from glidercli.logio.quantities import channel_of, degrees
 from glidercli.logio.reader import Part
 from glidercli.logio.records import NO_TIME
 from glidercli.logio.seaglider.actuators import counts_of_vbd, moves, surface_pump
 from glidercli.logio.seaglider.columns import SEA, fixes
 from glidercli.logio.seaglider.gathering import Gathering
 from glidercli.logio.seaglider.states import States, number_of, phase, take_states
-from glidercli.logio.seaglider.text_file import TextFile, read_text, to_number, utc_ns
+from glidercli.logio.seaglider.text_file import TextFile, read_text, since, to_number, utc_ns
 
 __all__ = ["declination_of", "read_log"]
 
@@ -35,7 +35,8 @@ OLD_HEAD = (
     "pitch_ad,roll_ad,vbd_ad"
 )
 SETTINGS = ("C_PITCH", "PITCH_CNV", "C_ROLL_DIVE", "C_ROLL_CLIMB", "ROLL_CNV", "C_VBD", "VBD_CNV", "VBD_LP_IGNORE")
-LONGEST = 1e8
+PADDING = [""] * 6
+"""Fields that a fix which was cut short may lack."""
 
 
 def read_log(path: Path, data: bytes) -> Part:
@@ -73,7 +74,7 @@ def declination_of(lines: list[str]) -> float | None:
 
 def _states(text: TextFile, rows: list[list[str]], gathering: Gathering) -> States:
     """Take the states; their phases are taken with the motor events."""
-    time_ns = _since(text.start_ns, [to_number(row[0]) for row in rows])
+    time_ns = since(text.start_ns, [to_number(row[0]) for row in rows])
     numbers = np.array([number_of(row[1].strip()) if len(row) > 1 else -1 for row in rows], dtype=np.int64)
     return take_states(gathering, "$STATE", time_ns, numbers)
 
@@ -100,7 +101,7 @@ def _events(
     start = table.pop("st_secs")
     if "end_secs" in table:
         table["end_secs"] = table["end_secs"] - start
-    time_ns = _since(text.start_ns, start)
+    time_ns = since(text.start_ns, start)
     good = gathering.usable("$GC", time_ns, table)
     time_ns, table = time_ns[good], {name: values[good] for name, values in table.items()}
     table = counts_of_vbd(table, settings.get("VBD_LP_IGNORE"))
@@ -117,38 +118,20 @@ def _events(
 
 def _fixes(rows: list[list[str]], gathering: Gathering) -> None:
     """Take the GPS fixes, in the order of their times."""
-    parsed = np.array([_fix(row) for row in rows]).reshape(len(rows), 3)
+    fields = [[to_number(field) for field in [*row, *PADDING][:6]] for row in rows]
     time_ns = np.array([_fix_ns(row) for row in rows], dtype=np.int64)
     order = np.argsort(time_ns, kind="stable")
-    parsed, time_ns = parsed[order], time_ns[order]
-    table = {name: parsed[:, i] for i, name in enumerate(("latitude", "longitude", "hdop"))}
+    parsed, time_ns = np.array(fields).reshape(len(rows), 6)[order], time_ns[order]
+    table = {"latitude": degrees(parsed[:, 2]), "longitude": degrees(parsed[:, 3]), "hdop": parsed[:, 5]}
     good = gathering.usable("$GPS", time_ns, table)
     found = fixes(time_ns[good], {key: values[good] for key, values in table.items()}, gathering.warnings)
     gathering.keep_rows("$GPS", time_ns[good], found)
 
 
-def _fix(row: list[str]) -> tuple[float, float, float]:
-    """Latitude and longitude in deg, and hdop, of a fix; NaN where a field is no number."""
-    numbers = [to_number(field) for field in [*row, "", "", "", "", "", ""][:6]]
-    latitude, longitude = (
-        float(np.sign(value) * (abs(value) // 100.0 + abs(value) % 100.0 / 60.0)) for value in numbers[2:4]
-    )
-    return latitude, longitude, numbers[5]
-
-
 def _fix_ns(row: list[str]) -> int:
     """Time of a fix, UTC ns, or NO_TIME."""
-    date, clock = ([*row, "", ""][i].strip()[:6] for i in (0, 1))
+    date, clock = ([*row, *PADDING][i].strip()[:6] for i in (0, 1))
     if not (len(date) == len(clock) == 6 and (date + clock).isascii() and (date + clock).isdigit()):
         return NO_TIME
     day, month, year, hour, minute, second = (int(text[i : i + 2]) for text in (date, clock) for i in (0, 2, 4))
     return utc_ns(1900 + year if year > 69 else 2000 + year, month, day, hour, minute, second)
-
-
-def _since(start_ns: int, seconds: list[float] | Array) -> Times:
-    """Times, UTC ns, of seconds since the start of the dive; NO_TIME where they are no number."""
-    elapsed = np.asarray(seconds, dtype=float)
-    sane = np.abs(elapsed) < LONGEST
-    return np.where(
-        sane, start_ns + np.round(np.where(sane, elapsed, 0.0) * 1e6).astype(np.int64) * 1000, NO_TIME
-    ).astype(np.int64)

@@ -33,7 +33,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.log import Channel
-from glidercli.logio.quantities import Quantity, channels_from, without_sentinels
+from glidercli.logio.quantities import Quantity, channels_from, degrees, without_sentinels
 from glidercli.units import BAR, CM3, INCH
 
 __all__ = ["RELAYED", "USED", "Column", "channels_of"]
@@ -138,7 +138,7 @@ def _fixes(time_ns: Times, columns: Mapping[str, Column], warnings: list[str]) -
     """Genuine GPS fixes, deg: where latitude and longitude are told together, one of them new, by a receiver that says
     so (m_gps_status 0)."""
     place = [columns[name] for name in (LATITUDE, LONGITUDE)]
-    latitude, longitude = (_degrees(column.sampled) for column in place)
+    latitude, longitude = (degrees(column.sampled) for column in place)
     told = ~np.isnan(place[0].sampled) | ~np.isnan(place[1].sampled)
     fix = (np.abs(latitude) <= 90.0) & (np.abs(longitude) <= 180.0) & ((latitude != 0.0) | (longitude != 0.0))
     fix &= place[0].fresh | place[1].fresh
@@ -148,11 +148,3 @@ def _fixes(time_ns: Times, columns: Mapping[str, Column], warnings: list[str]) -
     if others:
         warnings.append(f"m_gps_lat, m_gps_lon: {others} values left out that are no new fix, {int(fix.sum())} kept")
     return [Channel("latitude", time_ns[fix], latitude[fix]), Channel("longitude", time_ns[fix], longitude[fix])]
-
-
-def _degrees(value: Array) -> Array:
-    """Degrees from ddmm.mmm, signed; NaN where the minutes are 60 or more, or the value is no number."""
-    value = np.where(np.isfinite(value), value, np.nan)
-    whole = np.floor(np.abs(value) / 100.0)
-    minutes = np.abs(value) - 100.0 * whole
-    return np.where(minutes < 60.0, np.sign(value) * (whole + minutes / 60.0), np.nan)
