@@ -47,9 +47,14 @@ class Walker:
     """Goes from cycle to cycle. dumps : the states of dumps (see Cycles) on its way."""
 
     def __init__(self, header: Header, data: bytes) -> None:
-        self.listed, self.data = header.listed, data
+        listed = header.listed
+        self.listed, self.data = listed, data
         self.dumps: set[bytes] = set()
         self._lengths: dict[bytes, int] = {}  # by state: most repeat
+        width, self._count, self._new_bits = listed.state_bytes, len(listed), listed.new_bits
+        self._low = int.from_bytes(b"\x55" * width, "big")  # the low bit of the state of every sensor
+        self._spare = (1 << (8 * width - 2 * self._count)) - 1
+        self._shortest = 1 + width
 
     def walk(self, at: int, stop: set[int] | None = None) -> Walk:
         """The cycles from a byte on, as far as they go; not through ``stop``."""
@@ -73,16 +78,16 @@ class Walker:
 
     def _length(self, state: bytes) -> int:
         """Bytes of a cycle by its states, 0 where they cannot be."""
-        count = len(self.listed)
         number = int.from_bytes(state, "big")
-        slots = int.from_bytes(b"\x55" * len(state), "big")  # the low bit of every slot
-        spare = 8 * len(state) - 2 * count
-        if number & (number >> 1) & slots or number & ((1 << spare) - 1):
+        if number & (number >> 1) & self._low or number & self._spare:
             return 0
-        unchanged = (number & slots).bit_count()
-        if 2 * unchanged > count and ((number | number >> 1) & slots).bit_count() == count:
+        unchanged = (number & self._low).bit_count()
+        if 2 * unchanged > self._count and ((number | number >> 1) & self._low).bit_count() == self._count:
             self.dumps.add(state)
-        return 1 + len(state) + sum(size * (number & new).bit_count() for size, new in self.listed.new_bits)
+        length = self._shortest
+        for size, new in self._new_bits:
+            length += size * (number & new).bit_count()
+        return length
 
     def ends(self, at: int) -> bool:
         """Whether the file ends at this byte as a whole one does."""
