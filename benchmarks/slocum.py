@@ -3,6 +3,9 @@
 dbdreader is compiled C, GPL-3, and no dependency of this project but of its tests: make .venv/.installed brings it.
 Each run opens the file anew. "this" parses its list of sensors anew too, as for the first file of a mission; "next" has
 it from a file before, as this reader does by itself. One core; medians of the runs; files lie in memory.
+
+Fixed costs of Python, 0.2 ms a file and 10 us a sensor, make it slower in the smallest: 0.7 to 0.8 in the .tbd of 7 kB,
+0.9 to 1.0 for all 84 sensors of the .ebd of 58 kB. In all others it is faster.
 """
 
 from __future__ import annotations

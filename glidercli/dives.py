@@ -101,7 +101,7 @@ def _from_depth(channel: Channel, prominence: float | None) -> tuple[Interval, .
         away = np.abs(depth[first : last + 1] - depth[first])
         ahead = np.abs(depth[first : last + 1] - depth[last])
         start = first + int(np.flatnonzero(away <= least / 5.0)[-1])
-        end = first + int(np.flatnonzero(ahead <= least / 5.0)[0])
+        end = start + int(np.flatnonzero(ahead[start - first :] <= least / 5.0)[0])
         name = "dive" if depth[last] > depth[first] else "climb"
         begin = max(int(channel.time_ns[start]), intervals[-1].end_ns if intervals else 0)
         intervals.append(Interval(name, begin, int(channel.time_ns[end]) + 1))

@@ -8,7 +8,6 @@ nothing is interpolated.
 from __future__ import annotations
 
 import dataclasses
-import itertools
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Literal
 
@@ -143,11 +142,16 @@ class Log:
 
     def pieces(self, samples: int) -> Iterator[Log]:
         """The log cut in time, each piece with at most so many samples of any channel; all have the same channels."""
-        densest = max(self.channels.values(), key=len, default=None)
-        cuts = [None, *densest.time_ns[samples::samples].tolist(), None] if densest is not None else [None, None]
-        for start_ns, end_ns in itertools.pairwise(cuts):
+        times = [channel.time_ns for channel in self.channels.values()]
+        start_ns: int | None = None
+        while True:
+            ends = [samples + (0 if start_ns is None else int(np.searchsorted(t, start_ns))) for t in times]
+            end_ns = min((int(t[end]) for t, end in zip(times, ends, strict=True) if end < len(t)), default=None)
             parts = {name: channel.sliced(start_ns, end_ns) for name, channel in self.channels.items()}
             yield dataclasses.replace(self, channels=parts)
+            if end_ns is None:
+                return
+            start_ns = end_ns
 
     def table(self, zero_ns: int | None = None) -> pd.DataFrame:
         """All channels as a table in the contract's names and units.

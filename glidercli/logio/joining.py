@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from glidercli.errors import InputError
 from glidercli.log import Channel, Event, Log, Origin
+from glidercli.logio.derived.motion import with_phase
 from glidercli.logio.reader import Part
 from glidercli.logio.report import FileReport
 
@@ -26,10 +27,11 @@ FAR = 86400 * 10**9
 PLACE = ("origin_latitude_deg", "origin_longitude_deg")
 
 
-def joined(parts: list[Part]) -> tuple[Log, list[FileReport]]:
+def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]:
     """One Log of what several files gave, and their reports with what joining dropped.
 
-    ``parts`` is emptied, so that what has been joined need not be in memory twice.
+    ``parts`` is emptied, so that what has been joined need not be in memory twice. A dive without a recorded phase has
+    it from depth beside dives that have one; not where all files are this program's ``own``.
 
     Raises InputError where origins, vehicles or the places of tracks differ.
     """
@@ -62,6 +64,8 @@ def joined(parts: list[Part]) -> tuple[Log, list[FileReport]]:
         if log is not None:
             reached |= {name: int(channel.time_ns[-1]) for name, channel in log.channels.items()}
             kept.append(log)
+    if not own and any("phase" in log for log in kept):
+        kept = [with_phase(log) for log in kept]
     return _one(kept), [reports[path] for path in paths]
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from glidercli.log import Channel, Origin
 from glidercli.units import DBAR
 
-__all__ = ["Quantity", "channel_of", "channels_from", "submerged", "without_sentinels"]
+__all__ = ["Quantity", "channel_of", "channels_from", "degrees", "submerged", "without_sentinels"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -99,3 +99,11 @@ def submerged(conductivity: Channel, pressure: Channel | None, warnings: list[st
     if blind:
         warnings.append(f"conductivity: {blind} values without a pressure left out: the cell may be in air")
     return Channel("conductivity", conductivity.time_ns[under], conductivity.values[under])
+
+
+def degrees(value: Array) -> Array:
+    """Degrees from ddmm.mmm, signed; NaN where the minutes are 60 or more, or the value is no number."""
+    value = np.where(np.isfinite(value), value, np.nan)
+    whole = np.floor(np.abs(value) / 100.0)
+    minutes = np.abs(value) - 100.0 * whole
+    return np.where(minutes < 60.0, np.sign(value) * (whole + minutes / 60.0), np.nan)

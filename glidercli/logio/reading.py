@@ -82,9 +82,10 @@ def read(
     dives = tuple(dict.fromkeys(part.dive for part in parts if part.dive))
     held = {"", *(name for part in parts for name in part.holds)}
     partners = tuple((part.partner, part.report.path.name) for part in parts if part.partner not in held)
-    log, whole = joined(parts)
+    own = all(FORMATS[part.report.format].own for part in parts if part.report.format)
+    log, whole = joined(parts, own)
     reports |= {report.path: report for report in whole}
-    if not all(FORMATS[report.format].own for report in whole if report.format):
+    if not own:
         log = with_derived(log)
     return Reading(log, tuple(reports.values()), dives, partners)
 

@@ -33,6 +33,14 @@ def test_surface_drift_and_hover_belong_to_neither() -> None:
     assert seconds_of(climb) == ("climb", pytest.approx(2200.0, abs=9.0), pytest.approx(3200.0, abs=9.0))
 
 
+def test_a_leg_that_goes_back_short_of_a_turn_ends_after_it_begins() -> None:
+    # 5.8 m from turn to turn, and between 3.9 m back, less than a turn: from within 1 m of one to within 1 m of the other
+    depth = np.array([0.0, 60.0, 0.0, 4.85, 0.95, 5.8, 0.0, 60.0, 0.0])
+    found = phases(log(np.arange(9.0) * 60.0, depth=depth))
+    assert [interval.name for interval in found] == ["dive", "climb"] * 3
+    assert all(interval.end_ns > interval.start_ns for interval in found)
+
+
 def test_many_yos_with_noise() -> None:
     t = np.arange(0.0, 4200.0, 2.0)
     depth = np.interp(t, np.arange(0, 4201, 100), np.tile([8.0, 37.0], 22)[:43])

@@ -143,6 +143,14 @@ def test_scale_offset_and_phases(tmp_path: Path) -> None:
     assert "mode: 1 cells left out that are no phase of the mapping (X)" in report.warnings
 
 
+@pytest.mark.parametrize("phase", PHASES)
+def test_every_phase_is_possible(tmp_path: Path, phase: str) -> None:
+    mapping = MAPPING.replace("[missing]", 'phase = { column = "mode" }\n[missing]')
+    rows = [f"{row},{phase}" for row in ROWS]
+    log, _ = read_one(table(tmp_path, *rows, head="t,Depth,p,P,mode", mapping=mapping))
+    assert [PHASES[int(value)] for value in log["phase"].values] == [phase] * 5
+
+
 @pytest.mark.parametrize(
     ("row", "reason"),
     [

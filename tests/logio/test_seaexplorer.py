@@ -101,6 +101,14 @@ def test_single_cells_are_left_out_and_counted(tmp_path: Path) -> None:
     assert any("Pitch: 1 values outside -90..90" in warning for warning in report.warnings)
 
 
+def test_a_position_of_60_minutes_is_none(tmp_path: Path) -> None:
+    places = ("4854.500", "4854.600", "4861.000", "4854.800")
+    rows = [f"21/07/2019 10:0{i}:00;116;90.0;16;0;0;2.0;{lat};-13036.200;0;70;0;" for i, lat in enumerate(places)]
+    log, report = read_one(write(tmp_path, *rows))
+    assert log["latitude"].values.tolist() == [pytest.approx(48 + 54.6 / 60), pytest.approx(48 + 54.8 / 60)]
+    assert "Lat, Lon: 2 values left out that are no new fix at the surface, 2 kept" in report.warnings
+
+
 def test_only_changed_positions_at_the_surface_are_fixes(tmp_path: Path) -> None:
     rows = [
         "21/07/2019 10:00:00;116;90.0;16;0;0;2.0;4854.500;-13036.200;0;70;0;",

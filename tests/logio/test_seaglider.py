@@ -15,6 +15,7 @@ import pytest
 from conftest import ROOT
 
 from glidercli.channels import PHASES
+from glidercli.dives import phases
 from glidercli.errors import InputError
 from glidercli.logio import read
 from glidercli.logio.reader import Part
@@ -97,9 +98,76 @@ def test_eng_and_log_together_tell_what_the_nc_tells() -> None:
     np.testing.assert_allclose(texts["depth"].values, nc["depth"].values, rtol=5e-3)
     begun = {"dive", "inflection", "climb", "surface"}
     assert {PHASES[int(value)] for value in texts["phase"].values} == begun
-    force = np.searchsorted(nc["phase"].time_ns, texts["phase"].time_ns)
-    np.testing.assert_array_equal(nc["phase"].values[force], texts["phase"].values)
+    np.testing.assert_array_equal(texts["phase"].time_ns, nc["phase"].time_ns)
+    np.testing.assert_array_equal(texts["phase"].values, nc["phase"].values)
     assert texts.events == nc.events
+
+
+@pytest.mark.parametrize("paths", [[ENG, LOG], [ENG], [LOG], [NC]], ids=["eng-log", "eng", "log", "nc"])
+def test_every_depth_has_the_phase_that_the_states_tell(paths: list[Path]) -> None:
+    # $STATE lines of the .log, s since the start: the dive begins at 13, apogee 706, climb 793, surface coast 1607
+    log = read(paths).log
+    assert set(log["depth"].time_ns) <= set(log["phase"].time_ns)
+    since = (log["phase"].time_ns - np.datetime64("2016-05-04T18:14:19", "ns").astype(np.int64)) * 1e-9
+    state = np.searchsorted([13.0, 706.0, 793.0, 1607.0], since, side="right")
+    told = [PHASES[int(value)] for value in log["phase"].values]
+    assert told == [("", "dive", "inflection", "climb", "surface")[number] for number in state]
+
+
+def texts_of(tmp_path: Path, eng: str, log: str, source: Path = LOG, pack: bool = False) -> Path:
+    """A folder with a .eng and a .log under other names."""
+    for name, file in ((eng, ENG), (log, source)):
+        data = file.read_bytes()
+        (tmp_path / name).write_bytes(gzip.compress(data) if pack else data)
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("eng", "log"), [("p5610003.ENG", "p5610003.LOG"), ("p5610003.eng.gz", "p5610003.log.gz"), ("dive 3.eng", "dive 3.log")]
+)  # fmt: skip
+def test_the_log_beside_is_found_in_capitals_and_packed(tmp_path: Path, eng: str, log: str) -> None:
+    found = read([texts_of(tmp_path, eng, log, pack=eng.endswith("gz"))]).log
+    expected = read([ENG, LOG]).log
+    for name in ("heading", "mass_position", "phase"):
+        np.testing.assert_array_equal(found[name].values, expected[name].values)
+
+
+def test_a_log_of_another_dive_or_name_is_told_and_not_used(tmp_path: Path) -> None:
+    other = read_one(texts_of(tmp_path, ENG.name, LOG.name, OTHERS / "p5610004.log") / ENG.name)
+    assert "p5610003.log beside it is not used: it is of sg561.6.4, this is sg561.6.3" in other.report.warnings
+    (tmp_path / LOG.name).rename(tmp_path / "other.log")
+    none = read_one(tmp_path / ENG.name)
+    assert any(warning.startswith("no p5610003.log beside it") for warning in none.report.warnings)
+    for part in (other, none):
+        assert "heading" not in part.log
+        assert "phase" not in part.log
+
+
+def test_a_dive_without_its_log_still_dives_beside_one_that_has_it(tmp_path: Path) -> None:
+    for name in ("p5610004.eng", "p5610004.log", "p5610005.eng"):
+        shutil.copy(OTHERS / name, tmp_path)
+    shutil.copy(ENG, tmp_path)
+    log = read([tmp_path]).log
+    assert [interval.name for interval in phases(log)] == ["dive", "climb"] * 3
+
+
+def test_a_log_that_was_cut_tells_no_phase_after_its_end(tmp_path: Path) -> None:
+    shutil.copy(ENG, tmp_path)
+    text = LOG.read_text()
+    (tmp_path / LOG.name).write_text(text[: text.index("$GC,1068")])  # the last event that is left is at 978 s
+    part = read_one(tmp_path / ENG.name)
+    rows = part.log["depth"].time_ns
+    end = np.datetime64("2016-05-04T18:14:19", "ns").astype(np.int64) + 983 * 10**9  # 2 s of roll within the event
+    np.testing.assert_array_equal(part.log["phase"].time_ns, rows[rows < end])
+
+
+def test_lines_may_end_in_any_way(tmp_path: Path) -> None:
+    for ends in (b"\r\n", b"\r"):
+        for file in (ENG, LOG):
+            (tmp_path / file.name).write_bytes(file.read_bytes().replace(b"\n", ends))
+        found, expected = read([tmp_path]), read([ENG, LOG])
+        assert [r.kept for r in found.files] == [r.kept for r in expected.files]
+        np.testing.assert_array_equal(found.log["heading"].values, expected.log["heading"].values)
 
 
 def test_times_are_those_of_the_printed_start() -> None:
@@ -220,6 +288,8 @@ def test_heading_without_magnetic_variation_is_left_out(tmp_path: Path) -> None:
         ("$GPS,060180,184309,7018.048,835.862,16,1.5,16,1.1", "$GPS: clock not set: more than 30 days from the dive"),
         ("$GPS,040516,190000,7018.048,835.862,16,99.0,99,1.1", "$GPS: no usable value"),
         ("$GPS,040516,190000,0.0,0.0,16,1.0,99,1.1", "$GPS: no usable value"),
+        ("$GPS,040516,190000,7061.048,835.862,16,1.0,99,1.1", "$GPS: no usable value"),
+        ("$GPS,040516,190000", "$GPS: no value"),
         ("$STATE,1700,begin dreaming", "$STATE: unknown state"),
         ("$STATE,soon,begin surface", "$STATE: time cannot be read"),
         ("$SM_CCo,soon,1,2", "$SM_CCo: the pump's run at the surface, events and no sample"),

@@ -147,6 +147,13 @@ def test_both_byte_orders_and_all_sizes(tmp_path: Path, order: str) -> None:
     assert len(found["m_still"][0]) == 0
 
 
+def test_the_vehicle_reckons_10_m_to_a_bar() -> None:
+    told = sensors(SPIRAL / "comet-2019-218-00-034.dbd", ["m_depth", "m_pressure"])
+    deep = told["m_depth"][1] > 5.0
+    np.testing.assert_allclose(told["m_depth"][1][deep] / told["m_pressure"][1][deep], 10.0, rtol=1e-6)  # 4 bytes
+    assert "10 m to a bar" in read([SPIRAL]).log.metadata["depth_note"]
+
+
 def test_a_dump_of_all_sensors_is_no_sample_of_what_is_unchanged(tmp_path: Path) -> None:
     cycles = dive()
     again = {name: SAME for name, _, _ in EVERY} | {"m_present_time": START + 2.0, "m_depth": 3.0}
@@ -156,15 +163,15 @@ def test_a_dump_of_all_sensors_is_no_sample_of_what_is_unchanged(tmp_path: Path)
     assert len(log["pitch"]) == 11
     assert "4 unchanged values left out where the file tells every sensor anew: no samples" not in report.warnings
     assert any("unchanged values left out where the file tells every sensor anew" in w for w in report.warnings)
-    assert not any("m_battroll" in warning for warning in report.warnings)
+    assert "mass_rotation" not in log
     assert len(sensors(tmp_path / "unit-2019-220-0-1.dbd")["m_still"][0]) == 1  # as the file has it
 
 
-def test_a_rotating_battery_is_left_out_and_told_of(tmp_path: Path) -> None:
+def test_a_battery_that_puts_the_starboard_wing_down_rotates_against_the_models(tmp_path: Path) -> None:
+    # the makers, in spiral.mi: C_BATTROLL(rad) >0 puts stbd wing down; positive rotation of the model is to port
     cycles = [{**cycle, "m_battroll": 0.1 * i} for i, cycle in enumerate(dive())]
-    log, report = reading(tmp_path, cycles, table=EVERY)
-    assert "mass_rotation" not in log
-    assert any(warning.startswith("m_battroll: 11 values left out") for warning in report.warnings)
+    log, _ = reading(tmp_path, cycles, table=EVERY)
+    np.testing.assert_allclose(log["mass_rotation"].values, -0.1 * np.arange(1, 12), rtol=1e-6)  # of 4 bytes
 
 
 @pytest.mark.parametrize(

@@ -46,3 +46,15 @@ def test_slices_are_half_open() -> None:
     log = Log({"depth": channel("depth", [0, 1, 2, 3], [0.0, 1.0, 2.0, 3.0])}, "measured")
     assert log.sliced(1, 3)["depth"].values.tolist() == [1.0, 2.0]
     assert "depth" not in log.sliced(10, 20)
+
+
+def test_no_piece_holds_more_samples_of_any_channel() -> None:
+    sparse = Channel("depth", np.arange(100, dtype=np.int64) * 100, np.arange(100.0))
+    burst = Channel("pitch", np.arange(5000, 5090, dtype=np.int64), np.arange(90.0))
+    log = Log({"depth": sparse, "pitch": burst}, "measured")
+    pieces = list(log.pieces(7))
+    assert max(len(channel) for piece in pieces for channel in piece.channels.values()) == 7
+    assert all(set(piece.channels) == {"depth", "pitch"} for piece in pieces)
+    for name, channel in log.channels.items():
+        np.testing.assert_array_equal(np.concatenate([piece[name].time_ns for piece in pieces]), channel.time_ns)
+        np.testing.assert_array_equal(np.concatenate([piece[name].values for piece in pieces]), channel.values)

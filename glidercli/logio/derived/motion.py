@@ -9,7 +9,7 @@ from glidercli.dives import LEGS, mask, phases
 from glidercli.log import Channel, Log
 from glidercli.units import DBAR
 
-__all__ = ["AFLOAT", "LONGEST_GAP", "with_motion"]
+__all__ = ["AFLOAT", "LONGEST_GAP", "with_motion", "with_phase"]
 
 LONGEST_GAP = 300.0
 """s; nothing is derived across a longer gap between samples."""
@@ -30,15 +30,19 @@ def with_motion(log: Log) -> Log:
             notes["vertical_speed_note"] = (
                 f"derived: central difference of depth, none beside a gap of more than {LONGEST_GAP:.0f} s"
             )
-    if "depth" in log and "phase" not in log:
-        phase = _phase(log)
-        if len(phase):
-            log = log.with_channels(phase)
-            notes["phase_note"] = (
-                "derived from depth: dives and climbs lie between turns of at least 5 m, or a tenth of the depth range "
-                f"if that is less; a turn above {AFLOAT:g} m is surface, a deeper one inflection"
-            )
-    return log.with_metadata(**notes)
+    return with_phase(log.with_metadata(**notes))
+
+
+def with_phase(log: Log) -> Log:
+    """The log with a phase from depth, where it lacks one and dives or climbs."""
+    phase = _phase(log) if "depth" in log and "phase" not in log else None
+    if not phase:
+        return log
+    note = (
+        "derived from depth: dives and climbs lie between turns of at least 5 m, or a tenth of the depth range "
+        f"if that is less; a turn above {AFLOAT:g} m is surface, a deeper one inflection"
+    )
+    return log.with_channels(phase).with_metadata(phase_note=note)
 
 
 def _depth(log: Log) -> tuple[Channel, str]:

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from glidercli.channels import PHASES
 from glidercli.log import Channel
-from glidercli.logio.quantities import Quantity, channels_from, without_sentinels
+from glidercli.logio.quantities import Quantity, channels_from, degrees, without_sentinels
 from glidercli.units import CM3, DBAR, DEGREE, MILLIMETRE
 
 __all__ = ["NOTES", "SENTINELS", "channels_of"]
@@ -114,19 +114,13 @@ def _phase(time_ns: Times, state: Array, warnings: list[str]) -> Channel:
 
 def _fixes(time_ns: Times, used: Mapping[str, Array], warnings: list[str]) -> list[Channel]:
     """Genuine GPS fixes: where the position changes at the surface; 0, 0 is none."""
-    latitude, longitude = _degrees(used["Lat"]), _degrees(used["Lon"])
+    latitude, longitude = degrees(used["Lat"]), degrees(used["Lon"])
     valid = (np.abs(latitude) <= 90.0) & (np.abs(longitude) <= 180.0) & ((latitude != 0.0) | (longitude != 0.0))
     rows = np.flatnonzero(valid)
     changed = np.zeros(len(time_ns), dtype=bool)
     changed[rows[1:]] = (np.diff(latitude[rows]) != 0.0) | (np.diff(longitude[rows]) != 0.0)
     fix = changed & (used["NavState"] == AT_SURFACE)
-    others = int(((np.isfinite(latitude) | np.isfinite(longitude)) & ~fix).sum())
+    others = int(((np.isfinite(used["Lat"]) | np.isfinite(used["Lon"])) & ~fix).sum())
     if others:
         warnings.append(f"Lat, Lon: {others} values left out that are no new fix at the surface, {int(fix.sum())} kept")
     return [Channel("latitude", time_ns[fix], latitude[fix]), Channel("longitude", time_ns[fix], longitude[fix])]
-
-
-def _degrees(value: Array) -> Array:
-    """Degrees from ddmm.mmm, signed."""
-    whole = np.floor(np.abs(value) / 100.0)
-    return np.sign(value) * (whole + (np.abs(value) - 100.0 * whole) / 60.0)

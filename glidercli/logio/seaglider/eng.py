@@ -8,26 +8,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
-from glidercli.log import Event
+from glidercli.gzipped import unpacked
+from glidercli.log import Log
 from glidercli.logio.quantities import channel_of
 from glidercli.logio.reader import Part
-from glidercli.logio.records import NO_TIME
 from glidercli.logio.seaglider.actuators import clear_of_motors
 from glidercli.logio.seaglider.columns import DEPTH_CM, ENGINEERING, cells, engineering
-from glidercli.logio.seaglider.gathering import Gathering
+from glidercli.logio.seaglider.gathering import Dive, Gathering
 from glidercli.logio.seaglider.log_text import declination_of, read_log
-from glidercli.logio.seaglider.text_file import is_text, read_text
+from glidercli.logio.seaglider.states import held
+from glidercli.logio.seaglider.text_file import is_text, read_text, since
 
 __all__ = ["read_eng"]
 
 TIME = "elaps_t"
 COLUMNS = ("depth", "head", *ENGINEERING)
-LONGEST = 1e8
-"""s; times further from the start of the dive than three years are no times."""
+BESIDE = (".log", ".LOG", ".log.gz")
+"""Endings of the .log of a dive."""
 
 
 def read_eng(path: Path, data: bytes) -> Part:
-    """The Part of a .eng; where the .log of the dive stands beside it, that tells true heading and motor runs."""
+    """The Part of a .eng; where the .log of the dive is beside it, that tells true heading, states and motor runs."""
     text = read_text(path, data)
     names = [name.strip() for name in text.header.get("columns", "").split(",")]
     if TIME not in names:
@@ -38,16 +39,13 @@ def read_eng(path: Path, data: bytes) -> Part:
     gathering.records += len(split) - len(rows)
     gathering.drop("", "wrong number of fields", len(split) - len(rows))
     table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if name in (TIME, *COLUMNS)}
-    elapsed = table.pop(TIME)
-    sane = np.abs(elapsed) < LONGEST
-    since = np.where(sane, np.round(np.where(sane, elapsed, 0.0) * 1e6), 0.0).astype(np.int64) * 1000
-    time_ns = np.where(sane, text.start_ns + since, NO_TIME)
+    time_ns = since(text.start_ns, table.pop(TIME))
     table = cells({name: name for name in table}, table, gathering.warnings)
     good = gathering.usable("", time_ns, table)
     time_ns, table = time_ns[good], {name: values[good] for name, values in table.items()}
-    declination, events = _beside(path)
+    declination, log = _beside(path, text.dive, gathering.warnings)
     channels = engineering(time_ns, table, {name: name for name in table}, declination, gathering.warnings)
-    channels = clear_of_motors(channels, events, gathering.warnings)
+    channels = clear_of_motors(channels, log.events if log else (), gathering.warnings)
     if "depth" in table:
         channels.append(channel_of("depth", time_ns, table["depth"], DEPTH_CM, gathering.warnings))
     if declination is not None:
@@ -56,19 +54,29 @@ def read_eng(path: Path, data: bytes) -> Part:
         )
     gathering.metadata["depth_note"] = "depth as the vehicle reckoned it, not corrected for latitude as that of a .nc"
     gathering.keep_rows("", time_ns, channels)
+    if log and "phase" in log:
+        gathering.channels.append(held(log["phase"], time_ns, log.end_ns))
     return gathering.part(path, text.dive, ("eng",))
 
 
-def _beside(path: Path) -> tuple[float | None, tuple[Event, ...]]:
-    """Magnetic variation, deg, or None, and events of the .log of the same name, if it is there and can be read."""
-    beside = path.with_suffix(".log")
+def _beside(path: Path, dive: Dive, warnings: list[str]) -> tuple[float | None, Log | None]:
+    """Magnetic variation, deg, or None, and the .log of this dive that stands beside under the same name, or None."""
+    stem = Path(path.name.removesuffix(".gz")).stem
+    beside = next((file for ending in BESIDE if (file := path.with_name(stem + ending)).is_file()), None)
+    if beside is None:
+        warnings.append(f"no {stem}.log beside it, which tells the magnetic variation, the states and the motor runs")
+        return None, None
     try:
-        data = beside.read_bytes()
+        data, _ = unpacked(beside, beside.read_bytes())
         if not is_text(data):
-            return None, ()
-        return declination_of(read_text(beside, data).lines), read_log(beside, data).log.events
-    except (OSError, InputError):
-        return None, ()
+            raise InputError(beside, "is no .log of a Seaglider")
+        text = read_text(beside, data)
+        if text.dive != dive:
+            raise InputError(beside, f"is of {text.dive.name or 'an unknown dive'}, this is {dive.name or 'unknown'}")
+        return declination_of(text.lines), read_log(beside, data).log
+    except (OSError, InputError) as error:
+        warnings.append(f"{beside.name} beside it is not used: it {str(error).removeprefix(f'{beside}: ')}")
+        return None, None
 
 
 def _numbers(texts: list[str]) -> NDArray[np.float64]:

@@ -15,14 +15,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.logio.quantities import channel_of
+from glidercli.logio.quantities import channel_of, degrees
 from glidercli.logio.reader import Part
 from glidercli.logio.records import NO_TIME
 from glidercli.logio.seaglider.actuators import counts_of_vbd, moves, surface_pump
 from glidercli.logio.seaglider.columns import SEA, fixes
 from glidercli.logio.seaglider.gathering import Gathering
-from glidercli.logio.seaglider.states import number_of, phase, take_states
-from glidercli.logio.seaglider.text_file import TextFile, read_text, to_number, utc_ns
+from glidercli.logio.seaglider.states import States, number_of, phase, take_states
+from glidercli.logio.seaglider.text_file import TextFile, read_text, since, to_number, utc_ns
 
 __all__ = ["declination_of", "read_log"]
 
@@ -35,7 +35,8 @@ OLD_HEAD = (
     "pitch_ad,roll_ad,vbd_ad"
 )
 SETTINGS = ("C_PITCH", "PITCH_CNV", "C_ROLL_DIVE", "C_ROLL_CLIMB", "ROLL_CNV", "C_VBD", "VBD_CNV", "VBD_LP_IGNORE")
-LONGEST = 1e8
+PADDING = [""] * 6
+"""Fields that a fix which was cut short may lack."""
 
 
 def read_log(path: Path, data: bytes) -> Part:
@@ -48,9 +49,12 @@ def read_log(path: Path, data: bytes) -> Part:
     gathering.records = sum(key not in sampled for key, _ in lines)
     gathering.drop("", "a setting, no sample", sum(key not in sampled and key.startswith("$") for key, _ in lines))
     gathering.drop("", "no line of the form $KEY,value", sum(not key.startswith("$") for key, _ in lines))
-    climb_ns = _states(text, [fields for key, fields in lines if key == "$STATE"], gathering)
+    states = _states(text, [fields for key, fields in lines if key == "$STATE"], gathering)
     head = next((fields for key, fields in lines if key == "$GCHEAD"), OLD_HEAD.split(","))
-    _events(text, head, [fields for key, fields in lines if key == "$GC"], settings, climb_ns, gathering)
+    rows = [fields for key, fields in lines if key == "$GC"]
+    events_ns = _events(text, head, rows, settings, states.end_of_dive_ns, gathering)
+    if len(states.time_ns):
+        gathering.channels.append(phase(states, events_ns))
     pumped = [fields for key, fields in lines if key == "$SM_CCo"]
     gathering.records += len(pumped)
     gathering.drop("$SM_CCo", "the pump's run at the surface, events and no sample", len(pumped))
@@ -68,14 +72,11 @@ def declination_of(lines: list[str]) -> float | None:
     return known[-1] if known else None
 
 
-def _states(text: TextFile, rows: list[list[str]], gathering: Gathering) -> int | None:
-    """Take the states; the end of the dive, UTC ns, or None."""
-    time_ns = _since(text.start_ns, [to_number(row[0]) for row in rows])
+def _states(text: TextFile, rows: list[list[str]], gathering: Gathering) -> States:
+    """Take the states; their phases are taken with the motor events."""
+    time_ns = since(text.start_ns, [to_number(row[0]) for row in rows])
     numbers = np.array([number_of(row[1].strip()) if len(row) > 1 else -1 for row in rows], dtype=np.int64)
-    states = take_states(gathering, "$STATE", time_ns, numbers)
-    if len(states.time_ns):
-        gathering.channels.append(phase(states, time_ns[:0]))
-    return states.end_of_dive_ns
+    return take_states(gathering, "$STATE", time_ns, numbers)
 
 
 def _events(
@@ -85,8 +86,8 @@ def _events(
     settings: dict[str, float],
     climb_ns: int | None,
     gathering: Gathering,
-) -> None:
-    """Take the motor events: depths at their starts, and where the motors stood."""
+) -> Times:
+    """Take the motor events: depths at their starts, and where the motors stood; the starts, (n,) UTC ns."""
     names = [name.strip() for name in head]
     whole = [row for row in rows if len(row) == len(names)]
     gathering.records += len(rows) - len(whole)
@@ -96,11 +97,11 @@ def _events(
     if "st_secs" not in table:
         gathering.records += len(whole)
         gathering.drop("$GC", "no column st_secs", len(whole))
-        return
+        return np.array([], np.int64)
     start = table.pop("st_secs")
     if "end_secs" in table:
         table["end_secs"] = table["end_secs"] - start
-    time_ns = _since(text.start_ns, start)
+    time_ns = since(text.start_ns, start)
     good = gathering.usable("$GC", time_ns, table)
     time_ns, table = time_ns[good], {name: values[good] for name, values in table.items()}
     table = counts_of_vbd(table, settings.get("VBD_LP_IGNORE"))
@@ -112,42 +113,25 @@ def _events(
     gathering.events += found.events
     depths = np.isin(time_ns, channels[-1].time_ns if "depth" in table else time_ns[:0])
     gathering.keep("$GC", found.first_ns, found.gave | depths, "no depth or position, and no motor ran")
+    return time_ns
 
 
 def _fixes(rows: list[list[str]], gathering: Gathering) -> None:
     """Take the GPS fixes, in the order of their times."""
-    parsed = np.array([_fix(row) for row in rows]).reshape(len(rows), 3)
+    fields = [[to_number(field) for field in [*row, *PADDING][:6]] for row in rows]
     time_ns = np.array([_fix_ns(row) for row in rows], dtype=np.int64)
     order = np.argsort(time_ns, kind="stable")
-    parsed, time_ns = parsed[order], time_ns[order]
-    table = {name: parsed[:, i] for i, name in enumerate(("latitude", "longitude", "hdop"))}
+    parsed, time_ns = np.array(fields).reshape(len(rows), 6)[order], time_ns[order]
+    table = {"latitude": degrees(parsed[:, 2]), "longitude": degrees(parsed[:, 3]), "hdop": parsed[:, 5]}
     good = gathering.usable("$GPS", time_ns, table)
     found = fixes(time_ns[good], {key: values[good] for key, values in table.items()}, gathering.warnings)
     gathering.keep_rows("$GPS", time_ns[good], found)
 
 
-def _fix(row: list[str]) -> tuple[float, float, float]:
-    """Latitude and longitude in deg, and hdop, of a fix; NaN where a field is no number."""
-    numbers = [to_number(field) for field in [*row, "", "", "", "", "", ""][:6]]
-    latitude, longitude = (
-        float(np.sign(value) * (abs(value) // 100.0 + abs(value) % 100.0 / 60.0)) for value in numbers[2:4]
-    )
-    return latitude, longitude, numbers[5]
-
-
 def _fix_ns(row: list[str]) -> int:
     """Time of a fix, UTC ns, or NO_TIME."""
-    date, clock = ([*row, "", ""][i].strip()[:6] for i in (0, 1))
+    date, clock = ([*row, *PADDING][i].strip()[:6] for i in (0, 1))
     if not (len(date) == len(clock) == 6 and (date + clock).isascii() and (date + clock).isdigit()):
         return NO_TIME
     day, month, year, hour, minute, second = (int(text[i : i + 2]) for text in (date, clock) for i in (0, 2, 4))
     return utc_ns(1900 + year if year > 69 else 2000 + year, month, day, hour, minute, second)
-
-
-def _since(start_ns: int, seconds: list[float] | Array) -> Times:
-    """Times, UTC ns, of seconds since the start of the dive; NO_TIME where they are no number."""
-    elapsed = np.asarray(seconds, dtype=float)
-    sane = np.abs(elapsed) < LONGEST
-    return np.where(
-        sane, start_ns + np.round(np.where(sane, elapsed, 0.0) * 1e6).astype(np.int64) * 1000, NO_TIME
-    ).astype(np.int64)

@@ -53,8 +53,10 @@ def read_nc(path: Path, data: bytes) -> Part:
     try:
         gathering = Gathering(_middle(file), metadata=_about(file))
         states = _take_states(file, gathering)
-        _take_events(file, gathering, states.end_of_dive_ns or _start_of_climb(file))
-        _take_samples(file, gathering, states)
+        events_ns = _take_events(file, gathering, states.end_of_dive_ns or _start_of_climb(file))
+        rows_ns = _take_samples(file, gathering)
+        if len(states.time_ns):
+            gathering.channels.append(phase(states, np.union1d(rows_ns, events_ns)))
         if (start_ns := _at(file, 0.0)) is not None:
             gathering.events += surface_pump(file.fields("log_SM_CCo"), start_ns)
         _take_fixes(file, gathering)
@@ -69,8 +71,8 @@ def read_nc(path: Path, data: bytes) -> Part:
     return gathering.part(path, dive, ("eng", "log"), fullness=1, error=error if file.damaged else None)
 
 
-def _take_samples(file: NetcdfFile, gathering: Gathering, states: States) -> None:
-    """Take depth, attitude and controls at their times, and the CTD at its own; phases at the former."""
+def _take_samples(file: NetcdfFile, gathering: Gathering) -> Times:
+    """Take depth, attitude and controls at their times, and the CTD at its own; the former times, (n,) UTC ns."""
     warnings = gathering.warnings
     names = {key: ENG[key] for key in ENG} | {key: key for key in SEA}
     samples = series(file, "time", names)
@@ -91,13 +93,12 @@ def _take_samples(file: NetcdfFile, gathering: Gathering, states: States) -> Non
     if one:
         channels += ctd_channels(time_ns, {key: values[good] for key, values in beside.items()}, _place(file), warnings)
     gathering.keep_rows(samples.kind, time_ns, channels)
-    if len(states.time_ns):
-        gathering.channels.append(phase(states, time_ns))
     if not one:
         kind = ctd.kind if ctd.kind != samples.kind else "ctd_time"
         good = gathering.usable(kind, ctd.time_ns, beside)
-        time_ns, beside = ctd.time_ns[good], {key: values[good] for key, values in beside.items()}
-        gathering.keep_rows(kind, time_ns, ctd_channels(time_ns, beside, _place(file), warnings))
+        ctd_ns, beside = ctd.time_ns[good], {key: values[good] for key, values in beside.items()}
+        gathering.keep_rows(kind, ctd_ns, ctd_channels(ctd_ns, beside, _place(file), warnings))
+    return time_ns
 
 
 def _place(file: NetcdfFile) -> tuple[float, float] | None:
@@ -122,8 +123,8 @@ def _declination(file: NetcdfFile, gathering: Gathering) -> float | None:
     return told
 
 
-def _take_events(file: NetcdfFile, gathering: Gathering, climb_ns: int | None) -> None:
-    """Take the motor events."""
+def _take_events(file: NetcdfFile, gathering: Gathering, climb_ns: int | None) -> Times:
+    """Take the motor events; their starts, (n,) UTC ns."""
     kind, time_ns, table = series(file, "gc_st_secs", {key: f"gc_{key}" for key in EVENT})
     if "end_secs" in table:
         table["end_secs"] = table["end_secs"] - time_ns * 1e-9
@@ -136,6 +137,7 @@ def _take_events(file: NetcdfFile, gathering: Gathering, climb_ns: int | None) -
     gathering.channels += [channel for channel in found.channels if len(channel)]
     gathering.events += found.events
     gathering.keep(kind, found.first_ns, found.gave, "no motor ran, and no position is told")
+    return time_ns
 
 
 def _take_states(file: NetcdfFile, gathering: Gathering) -> States:

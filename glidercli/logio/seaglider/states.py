@@ -14,7 +14,7 @@ from glidercli.channels import PHASES
 from glidercli.log import Channel, Event
 from glidercli.logio.seaglider.gathering import Gathering
 
-__all__ = ["STATES", "States", "number_of", "phase", "take_states"]
+__all__ = ["STATES", "States", "held", "number_of", "phase", "take_states"]
 
 Times = NDArray[np.int64]
 Numbers = NDArray[np.int64]
@@ -57,6 +57,17 @@ def phase(states: States, at_ns: Times) -> Channel:
     times = np.unique(np.concatenate([starts, at_ns[at_ns >= starts[0]] if len(starts) else starts]))
     force = np.searchsorted(starts, times, side="right") - 1
     return Channel("phase", times, PHASE_OF_STATE[states.numbers[force] // 2], "derived")
+
+
+def held(phase: Channel, at_ns: Times, until_ns: int) -> Channel:
+    """The phase of a .log at the times of other rows, derived: each sample of it holds until the next.
+
+    at_ns : (m,), UTC ns, increasing; before the first sample there is none, nor after until_ns, where a .log that was
+    cut tells no more.
+    """
+    known = (at_ns >= phase.time_ns[0]) & (at_ns <= until_ns)
+    force = np.searchsorted(phase.time_ns, at_ns[known], side="right") - 1
+    return Channel("phase", at_ns[known], phase.values[force], "derived")
 
 
 def take_states(gathering: Gathering, kind: str, time_ns: Times, states: Numbers) -> States:

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from glidercli.errors import InputError
 from glidercli.logio.records import NO_TIME
 from glidercli.logio.seaglider.gathering import Dive
 
-__all__ = ["TextFile", "is_text", "read_text", "to_number", "utc_ns"]
+__all__ = ["TextFile", "is_text", "read_text", "since", "to_number", "utc_ns"]
 
 LONGEST = 64 * 2**20
 """Bytes of a text that are read; those of a dive are some 10 kB."""
+FURTHEST = 1e8
+"""s; three years."""
 
 
 class TextFile(NamedTuple):
@@ -48,7 +52,7 @@ def is_text(data: bytes) -> bool:
 def read_text(path: Path, data: bytes) -> TextFile:
     """Take a text apart. Raises InputError where no start of the dive is told."""
     header: dict[str, str] = {}
-    lines = [line.strip() for line in data[:LONGEST].decode("latin-1").replace("\r", "").split("\n")]
+    lines = [line.strip() for line in data[:LONGEST].decode("latin-1").replace("\r", "\n").split("\n")]
     for number, line in enumerate(lines):
         key, _, value = line.lstrip("%").partition(":")
         if key.strip() == "data":
@@ -77,6 +81,14 @@ def utc_ns(year: int, month: int, day: int, hour: int, minute: int, second: int)
         return int(np.datetime64(text, "ns").astype(np.int64)) if 1970 <= year < 2200 else NO_TIME
     except ValueError:
         return NO_TIME
+
+
+def since(start_ns: int, seconds: Sequence[float] | NDArray[np.float64]) -> NDArray[np.int64]:
+    """Times, UTC ns, of seconds since the start of the dive; NO_TIME where they are none, or years away."""
+    elapsed = np.asarray(seconds, dtype=float)
+    sane = np.abs(elapsed) < FURTHEST
+    rounded = np.round(np.where(sane, elapsed, 0.0) * 1e6).astype(np.int64) * 1000
+    return np.where(sane, start_ns + rounded, NO_TIME).astype(np.int64)
 
 
 def _integer(text: str) -> int | None:

@@ -12,12 +12,15 @@ Signs and units, and what shows them (comet 2016 and 2019, modena 2015):
     m_battpos         inch, forward positive: the depth rate follows it (correlation 0.96 to 0.98 in the comet). Its own
                       zero is kept.
     m_fin             rad, to starboard positive: the yaw rate follows it in sawtooth flight (correlation 0.48 to 0.80),
-                      and held at 0.20 rad it turns the heading clockwise (the spiral).
+                      and held at 0.20 rad it turns the heading clockwise (the spiral). So also the makers: C_FIN(rad),
+                      >0 turns to stbd (behaviour set_heading, as in spiral.mi).
+    m_battroll        rad; the makers: C_BATTROLL(rad) >0 puts stbd wing down (spiral.mi). The model's rotation moves
+                      the mass to port, so mass_rotation = -m_battroll. No file at hand has it moved.
+    m_depth           m, 10 m to a bar of the vehicle's own gauge: m_depth / m_pressure is 10.000 in all files.
     m_ballast_pumped  cc, floating positive (-231 on dives, +231 on climbs); m_de_oil_vol the same in deep gliders.
     sci_water_*       degC, S/m, bar of sea pressure (0.01 bar at the surface).
     m_gps_lat, _lon   ddmm.mmm; 69696969 or 69697000 for none, which is no place. m_lat and m_lon are the glider's
                       dead reckoning, and no fixes.
-    m_battroll        not used: no file at hand has it moved, so that nothing shows its sign.
 """
 
 from __future__ import annotations
@@ -30,7 +33,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.log import Channel
-from glidercli.logio.quantities import Quantity, channels_from, without_sentinels
+from glidercli.logio.quantities import Quantity, channels_from, degrees, without_sentinels
 from glidercli.units import BAR, CM3, INCH
 
 __all__ = ["RELAYED", "USED", "Column", "channels_of"]
@@ -46,6 +49,7 @@ SENSORS = {
     "m_roll": Quantity("roll", 1.0, -HALF, HALF, "rad"),
     "m_heading": Quantity("heading", 1.0, 0.0, WHOLE, "rad"),
     "m_battpos": Quantity("mass_position", INCH, -5.0, 5.0, "in"),
+    "m_battroll": Quantity("mass_rotation", -1.0, -HALF, HALF, "rad"),
     "m_ballast_pumped": Quantity("ballast_volume", CM3, -1000.0, 1000.0, "cc"),
     "m_de_oil_vol": Quantity("ballast_volume", CM3, -1000.0, 1000.0, "cc"),
     "m_fin": Quantity("rudder_angle", 1.0, -0.8, 0.8, "rad"),
@@ -56,14 +60,14 @@ SENSORS = {
 CTD = ("sci_water_temp", "sci_water_cond", "sci_water_pressure")
 RELAYED = frozenset(SENSORS[name].channel for name in CTD)
 """Channels that a navigation file has from the science computer, fewer and later than the science file's own."""
-LATITUDE, LONGITUDE, STATUS, VARIATION, ROLLER = (
-    "m_gps_lat", "m_gps_lon", "m_gps_status", "m_gps_mag_var", "m_battroll",
-)  # fmt: skip
+LATITUDE, LONGITUDE, STATUS, VARIATION = "m_gps_lat", "m_gps_lon", "m_gps_status", "m_gps_mag_var"
 CURRENT = ("m_water_vx", "m_water_vy")
-USED = (*SENSORS, LATITUDE, LONGITUDE, STATUS, VARIATION, ROLLER, *CURRENT)
+USED = (*SENSORS, LATITUDE, LONGITUDE, STATUS, VARIATION, *CURRENT)
 """Sensors that are decoded for a log."""
 NOTES = {
+    "depth": {"depth_note": "m_depth as recorded: the vehicle reckons 10 m to a bar of its own gauge"},
     "mass_position": {"mass_position_zero": "the actuator's own zero (m_battpos), not the model's"},
+    "mass_rotation": {"mass_rotation_note": "mass_rotation = -m_battroll, whose positive puts the starboard wing down"},
     "rudder_angle": {"rudder_note": "m_fin as recorded: the yaw rate follows it with the same sign"},
 }
 
@@ -94,9 +98,6 @@ def channels_of(time_ns: Times, columns: Mapping[str, Column]) -> tuple[list[Cha
         found["heading"], notes["heading_note"] = _true(found["heading"], time_ns, columns.get(VARIATION), warnings)
     if {LATITUDE, LONGITUDE} <= columns.keys():
         found |= {channel.name: channel for channel in _fixes(time_ns, columns, warnings)}
-    if ROLLER in columns and np.isfinite(columns[ROLLER].sampled).any():
-        count = int(np.isfinite(columns[ROLLER].sampled).sum())
-        warnings.append(f"{ROLLER}: {count} values left out: no file known to this reader shows its sign")
     if all(name in columns and np.isfinite(columns[name].sampled).any() for name in CURRENT):
         east, north = (float(columns[name].latest[-1]) for name in CURRENT)
         notes["glider_current_note"] = (
@@ -137,7 +138,7 @@ def _fixes(time_ns: Times, columns: Mapping[str, Column], warnings: list[str]) -
     """Genuine GPS fixes, deg: where latitude and longitude are told together, one of them new, by a receiver that says
     so (m_gps_status 0)."""
     place = [columns[name] for name in (LATITUDE, LONGITUDE)]
-    latitude, longitude = (_degrees(column.sampled) for column in place)
+    latitude, longitude = (degrees(column.sampled) for column in place)
     told = ~np.isnan(place[0].sampled) | ~np.isnan(place[1].sampled)
     fix = (np.abs(latitude) <= 90.0) & (np.abs(longitude) <= 180.0) & ((latitude != 0.0) | (longitude != 0.0))
     fix &= place[0].fresh | place[1].fresh
@@ -147,11 +148,3 @@ def _fixes(time_ns: Times, columns: Mapping[str, Column], warnings: list[str]) -
     if others:
         warnings.append(f"m_gps_lat, m_gps_lon: {others} values left out that are no new fix, {int(fix.sum())} kept")
     return [Channel("latitude", time_ns[fix], latitude[fix]), Channel("longitude", time_ns[fix], longitude[fix])]
-
-
-def _degrees(value: Array) -> Array:
-    """Degrees from ddmm.mmm, signed; NaN where the minutes are 60 or more, or the value is no number."""
-    value = np.where(np.isfinite(value), value, np.nan)
-    whole = np.floor(np.abs(value) / 100.0)
-    minutes = np.abs(value) - 100.0 * whole
-    return np.where(minutes < 60.0, np.sign(value) * (whole + minutes / 60.0), np.nan)

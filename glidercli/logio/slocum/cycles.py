@@ -119,7 +119,8 @@ class Cycles:
         if not len(self):
             return dict.fromkeys(wanted, self.begins)
         listed, states = self.header.listed, self._states[:, :width]
-        lengths = listed.lengths[np.arange(width), states[0]]
+        first = zip(range(width), states[0].tolist(), strict=True)
+        lengths = np.array([listed.lengths(byte)[state] for byte, state in first], dtype=np.int64)
         before = self.begins[0] + listed.state_bytes + np.cumsum(lengths) - lengths
         start = self.begins + listed.state_bytes
         found = {}
@@ -128,5 +129,5 @@ class Cycles:
                 start[0] = before[byte]
                 found[byte] = start.copy() if used else start[:1].copy()
             if used:
-                start += listed.lengths[byte][states[:, byte]]
+                start += listed.lengths(byte)[states[:, byte]]
         return found

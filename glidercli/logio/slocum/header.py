@@ -8,6 +8,7 @@ file that holds it, named by sensor_list_crc; then one cycle of known values tha
 from __future__ import annotations
 
 import dataclasses
+import re
 import struct
 from collections.abc import Callable
 from pathlib import Path
@@ -20,6 +21,8 @@ __all__ = ["Header", "header_of"]
 MOST_TAGS = 100
 LONGEST_LINE = 1000
 ENCODINGS = range(2, 6)
+LIST = re.compile(rb"(?:s:[^\n]*(?:\n|\Z))*")
+"""The lines of a sensor list, or nothing."""
 NEEDED = (
     "dbd_label", "encoding_ver", "num_ascii_tags", "full_filename", "filename_extension", "total_num_sensors",
     "sensors_per_cycle", "state_bytes_per_cycle",
@@ -58,10 +61,8 @@ def header_of(path: Path, data: bytes, cache: Callable[[str], bytes]) -> Header:
     if tags.get("sensor_list_factored", "0") == "1":
         text = cache(crc)
     else:
-        end = at
-        while data.startswith(b"s:", end):
-            end = data.find(b"\n", end) + 1 or len(data)
-        text, at = data[at:end], end
+        text = LIST.match(data, at)[0]  # type: ignore[index]
+        at += len(text)
         if crc and checksum(text) != crc:
             what = f"its sensor list has the checksum {checksum(text)}, sensor_list_crc is {crc}"
             raise InputError(path, f"header: {what}: the list is cut or damaged")

@@ -9,6 +9,7 @@ where units and signs stand too). Cycles in a damaged stretch cannot be counted:
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -20,9 +21,9 @@ from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import NO_TIME, usable
 from glidercli.logio.report import FileReport
 from glidercli.logio.slocum.channels import RELAYED, USED, Column, channels_of
-from glidercli.logio.slocum.cycles import Cycles
+from glidercli.logio.slocum.cycles import Cycles, Samples
 from glidercli.logio.slocum.packing import LABEL, is_packed
-from glidercli.logio.slocum.sensors import cycles_of, times_of
+from glidercli.logio.slocum.sensors import clock_of, cycles_of, times_of
 
 __all__ = ["is_slocum", "read_slocum"]
 
@@ -57,7 +58,9 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
             path, f"header: filename_extension is {tags['filename_extension']}; {', '.join(KINDS)} are read"
         )
     dropped = Counter(cycles.torn)
-    seconds = times_of(path, cycles)
+    places = {name: place for name, place in cycles.header.listed.places.items() if name in USED}
+    samples = cycles.samples([clock_of(path, cycles), *places.values()])
+    seconds = times_of(next(samples), len(cycles))
     first = np.arange(len(cycles)) < cycles.stale
     unset = ~first & (seconds < BORN)
     for reason, which in ((FIRST, first), (UNSET, unset)):
@@ -66,7 +69,7 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
     good = ~(first | unset)
     known = np.isfinite(seconds) & (np.abs(seconds) <= LATEST)
     time_ns = np.where(known, np.rint(np.where(known, seconds, 0.0) * 1e9), NO_TIME).astype(np.int64)
-    columns, repeated = _columns(cycles)
+    columns, repeated = _columns(cycles, zip(places, samples, strict=True))
     good[good] = usable(time_ns[good], {name: c.sampled[good] for name, c in columns.items()}, dropped)
     kept_columns = {name: Column(c.sampled[good], c.fresh[good], c.latest[good]) for name, c in columns.items()}
     channels, notes, warnings = channels_of(time_ns[good], kept_columns)
@@ -100,11 +103,10 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
     )
 
 
-def _columns(cycles: Cycles) -> tuple[dict[str, Column], int]:
-    """The sensors that a log needs, of those that the file has, and how many unchanged values of dumps are left out."""
-    places = {name: place for name, place in cycles.header.listed.places.items() if name in USED}
+def _columns(cycles: Cycles, told: Iterable[tuple[str, Samples]]) -> tuple[dict[str, Column], int]:
+    """The sensors that a log needs, by name, and how many unchanged values of dumps are left out."""
     columns, repeated = {}, 0
-    for name, samples in zip(places, cycles.samples(places.values()), strict=True):
+    for name, samples in told:
         rows, new, values = samples
         good = new | ~cycles.dump[rows]
         repeated += int((~good).sum())

@@ -11,11 +11,13 @@ counted in one step. So 2000 sensors a cycle are scanned in 2 us in plain Python
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Set as AbstractSet
 
 import numpy as np
 
 from glidercli.logio.slocum.cycles import Cycles
 from glidercli.logio.slocum.header import Header
+from glidercli.logio.slocum.sensor_lists import SensorList
 
 __all__ = ["scan"]
 
@@ -43,46 +45,53 @@ class Walk:
     fault: str = ""
 
 
+class Lengths(dict[bytes, int]):
+    """Bytes of a cycle by its states, 0 where they cannot be; each is worked out once, since most states repeat.
+
+    dumps : the states of dumps (see Cycles) among them.
+    """
+
+    def __init__(self, listed: SensorList) -> None:
+        self._count, self._width, self._new_bits = len(listed), listed.state_bytes, listed.new_bits
+        self._low = int.from_bytes(b"\x55" * self._width, "big")  # the low bit of the state of every sensor
+        self._spare = (1 << (8 * self._width - 2 * self._count)) - 1
+        self.dumps: set[bytes] = set()
+
+    def __missing__(self, state: bytes) -> int:
+        length = 1 + self._width
+        if len(state) < self._width:
+            return length  # which is beyond the end of the file
+        number = int.from_bytes(state, "big")
+        if number & (number >> 1) & self._low or number & self._spare:
+            return 0
+        unchanged = (number & self._low).bit_count()
+        if 2 * unchanged > self._count and ((number | number >> 1) & self._low).bit_count() == self._count:
+            self.dumps.add(state)
+        for size, new in self._new_bits:
+            length += size * (number & new).bit_count()
+        self[state] = length
+        return length
+
+
 class Walker:
-    """Goes from cycle to cycle. dumps : the states of dumps (see Cycles) on its way."""
+    """Goes from cycle to cycle."""
 
     def __init__(self, header: Header, data: bytes) -> None:
-        self.listed, self.data = header.listed, data
-        self.dumps: set[bytes] = set()
-        self._lengths: dict[bytes, int] = {}  # by state: most repeat
+        self.data, self.width, self.lengths = data, header.listed.state_bytes, Lengths(header.listed)
 
-    def walk(self, at: int, stop: set[int] | None = None) -> Walk:
+    def walk(self, at: int, stop: AbstractSet[int] = frozenset()) -> Walk:
         """The cycles from a byte on, as far as they go; not through ``stop``."""
-        data, size, width, lengths = self.data, len(self.data), self.listed.state_bytes, self._lengths
+        data, size, lengths, behind = self.data, len(self.data), self.lengths, 1 + self.width
         begins: list[int] = []
-        while at < size and data[at] == CYCLE and not (stop and at in stop):
-            state = data[at + 1 : at + 1 + width]
-            length = lengths.get(state, 0)
+        while at < size and data[at] == CYCLE:
+            length = lengths[data[at + 1 : at + behind]]
             if not length:
-                if len(state) < width:
-                    break
-                length = self._length(state)
-                if not length:
-                    return Walk(begins, at, "states that do not occur")
-                lengths[state] = length
-            if at + length > size:
+                return Walk(begins, at, "states that do not occur")
+            if at + length > size or at in stop:
                 break
             begins.append(at + 1)
             at += length
         return Walk(begins, at)
-
-    def _length(self, state: bytes) -> int:
-        """Bytes of a cycle by its states, 0 where they cannot be."""
-        count = len(self.listed)
-        number = int.from_bytes(state, "big")
-        slots = int.from_bytes(b"\x55" * len(state), "big")  # the low bit of every slot
-        spare = 8 * len(state) - 2 * count
-        if number & (number >> 1) & slots or number & ((1 << spare) - 1):
-            return 0
-        unchanged = (number & slots).bit_count()
-        if 2 * unchanged > count and ((number | number >> 1) & slots).bit_count() == count:
-            self.dumps.add(state)
-        return 1 + len(state) + sum(size * (number & new).bit_count() for size, new in self.listed.new_bits)
 
     def ends(self, at: int) -> bool:
         """Whether the file ends at this byte as a whole one does."""
@@ -127,7 +136,8 @@ def scan(header: Header, data: bytes) -> Cycles:
     elif rest[1:]:
         remark = f"{len(rest) - 1} bytes of padding after the end mark X"
     width = header.listed.state_bytes
-    dump = [data[begin : begin + width] in walker.dumps for begin in begins] if walker.dumps else [False] * len(begins)
+    dumps = walker.lengths.dumps
+    dump = [data[begin : begin + width] in dumps for begin in begins] if dumps else [False] * len(begins)
     return Cycles(
         header, data, np.array(begins, dtype=np.int64), np.array(dump, dtype=bool), torn, error, remark, resumed
     )

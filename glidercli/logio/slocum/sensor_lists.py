@@ -21,6 +21,10 @@ FLOATING, INTEGER = (4, 8), (1, 2)
 """Bytes of a value, by its kind."""
 NEW = ((np.arange(256)[None, :] >> np.array([[6], [4], [2], [0]])) & 3 == 2).astype(np.int64)
 """Whether a slot of a state byte says new value, (4, 256)."""
+NEW_DIGIT = {size: bytes(ord("2") if byte == size else ord("0") for byte in range(256)) for size in FLOATING + INTEGER}
+"""By the size of a value: its bytes as digits of base 4, which say new value where a sensor is of this size."""
+WORDS = 7
+"""Words of a line."""
 LINE = re.compile(r"s: ([TF]) +\d+ +(-?\d+) ([1248]) (\S+) (\S+)\n")
 
 
@@ -50,30 +54,19 @@ class SensorList:
         """Bytes of state that open a cycle: 2 bits a sensor."""
         return -(-len(self) // 4)
 
-    @functools.cached_property
-    def _slots(self) -> NDArray[np.int64]:
-        """Bytes of a value by state byte and slot, (state bytes, 4); 0 in slots that are left over."""
-        slots = np.zeros(4 * self.state_bytes, dtype=np.int64)
-        slots[: len(self)] = self.sizes
-        return slots.reshape(-1, 4)
-
     def ahead(self, place: int) -> NDArray[np.int64]:
         """Bytes of new values that stand before a sensor's among those of its state byte, (256,), by its value."""
         return _told(self.sizes[place - place % 4 : place])
 
-    @functools.cached_property
-    def lengths(self) -> NDArray[np.int64]:
-        """Bytes of the new values of a state byte, (state bytes, 256), by its value."""
-        return np.asarray(self._slots @ NEW)
+    def lengths(self, byte: int) -> NDArray[np.int64]:
+        """Bytes of the new values that a state byte tells of, (256,), by its value."""
+        return _told(self.sizes[4 * byte : 4 * byte + 4])
 
     @functools.cached_property
     def new_bits(self) -> list[tuple[int, int]]:
         """The bits of all state bytes, as one big-endian integer, that say new value, by the size of a value."""
-        masks = []
-        for size in FLOATING + INTEGER:
-            slots = np.where(self._slots == size, 2, 0) @ np.array([64, 16, 4, 1])
-            masks.append((size, int.from_bytes(slots.astype(np.uint8).tobytes(), "big")))
-        return [(size, mask) for size, mask in masks if mask]
+        sizes = bytes(self.sizes).ljust(4 * self.state_bytes, b"\0")
+        return [(size, int(sizes.translate(NEW_DIGIT[size]), 4)) for size in set(self.sizes)]
 
 
 @functools.lru_cache(maxsize=256)
@@ -90,18 +83,26 @@ def checksum(text: bytes) -> str:
 
 @functools.lru_cache(maxsize=16)
 def sensor_list(text: bytes) -> SensorList:
-    """The list that a text holds. The files of a mission share one. Raises ValueError naming the line at fault."""
-    lines = text.decode("latin-1").replace("\r\n", "\n")
-    found = LINE.findall(lines)
-    if len(found) != lines.count("\n") or not lines.endswith("\n"):
-        for number, line in enumerate(lines.splitlines(keepends=True)):
-            if not LINE.fullmatch(line):
-                shown = line[:60].rstrip()
-                raise ValueError(
-                    f"line {number + 1} is {shown!r}; s: T index place bytes name unit is needed, bytes 1248"
-                )
-    used = [line for line in found if line[0] == "T"]
-    places, sizes, names, units = (tuple(line[column] for line in used) for column in (1, 2, 3, 4))
-    if places != tuple(map(str, range(len(places)))):
+    """The list that a text holds. The files of a mission share one. Raises ValueError naming the line at fault.
+
+    Of the many sensors that are not in the cycles only the number is taken.
+    """
+    lines = text.split(b"\n")
+    used = [line for line in lines if line.startswith(b"s: T ")]
+    rest = sum(line.startswith(b"s: F ") for line in lines)
+    words = b" ".join(used).decode("latin-1").split()
+    marks, _, numbers, places, sizes, names, units = (tuple(words[column::WORDS]) for column in range(WORDS))
+    whole = len(used) + rest == len(lines) - 1 and text.endswith(b"\n") and len(words) == WORDS * len(used)
+    if not (whole and set(marks) <= {"s:"} and set(sizes) <= set("1248") and "".join(numbers).isdigit()):
+        raise ValueError(_fault(text))
+    if places != tuple(map(str, range(len(used)))):
         raise ValueError("the places of its sensors are not 0, 1, 2 ... in order")
-    return SensorList(names, units, tuple(map(int, sizes)), len(found))
+    return SensorList(names, units, tuple(map(int, sizes)), len(used) + rest)
+
+
+def _fault(text: bytes) -> str:
+    """Which line of a list is not as it should be."""
+    lines = text.decode("latin-1").replace("\r\n", "\n").splitlines(keepends=True)
+    number = next((number for number, line in enumerate(lines) if not LINE.fullmatch(line)), 0)
+    shown = lines[number][:60].rstrip() if lines else ""
+    return f"line {number + 1} is {shown!r}; s: T index place bytes name unit is needed, bytes 1248"

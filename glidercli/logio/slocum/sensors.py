@@ -12,12 +12,12 @@ from glidercli.errors import InputError
 from glidercli.files import readable_file
 from glidercli.gzipped import unpacked as gunzipped
 from glidercli.logio.slocum.caches import cached_list
-from glidercli.logio.slocum.cycles import Cycles
+from glidercli.logio.slocum.cycles import Cycles, Samples
 from glidercli.logio.slocum.header import header_of
 from glidercli.logio.slocum.packing import LABEL, is_packed, unpacked
 from glidercli.logio.slocum.scanning import scan
 
-__all__ = ["cycles_of", "sensors", "times_of"]
+__all__ = ["clock_of", "cycles_of", "sensors", "times_of"]
 
 CLOCKS = ("m_present_time", "sci_m_present_time")
 """Sensors that tell a cycle's time, s since 1970: the navigation's, the science computer's; the first that is there."""
@@ -35,15 +35,19 @@ def cycles_of(path: Path, cache: Path | None = None) -> tuple[Cycles, str | None
     return scan(header, data), damage
 
 
-def times_of(path: Path, cycles: Cycles) -> NDArray[np.float64]:
-    """The time of each cycle, (n,), s since 1970; NaN where none is known. Raises InputError where none can be."""
+def clock_of(path: Path, cycles: Cycles) -> int:
+    """The place of the sensor that tells the time of a cycle. Raises InputError where there is none."""
     places = cycles.header.listed.places
     clock = next((places[name] for name in CLOCKS if name in places), None)
     if clock is None:
         raise InputError(path, f"none of its {len(places)} sensors tells the time; {' or '.join(CLOCKS)} is needed")
-    rows, _, values = next(cycles.samples([clock]))
-    time_s = np.full(len(cycles), np.nan)
-    time_s[rows] = values
+    return clock
+
+
+def times_of(clock: Samples, count: int) -> NDArray[np.float64]:
+    """The time of each of ``count`` cycles, (count,), s since 1970; NaN where none is known."""
+    time_s = np.full(count, np.nan)
+    time_s[clock.rows] = clock.values
     return time_s
 
 
@@ -64,8 +68,8 @@ def sensors(
     for name in wanted:
         if name not in places:
             raise InputError(path, f"has no sensor {name}; it has {len(places)}, such as {', '.join(list(places)[:3])}")
-    time_s = times_of(path, cycles)
-    told = cycles.samples(places[name] for name in wanted)
+    told = cycles.samples([clock_of(path, cycles), *(places[name] for name in wanted)])
+    time_s = times_of(next(told), len(cycles))
     found = {}
     for name, (rows, _, values) in zip(wanted, told, strict=True):
         good = (rows >= cycles.stale) & ~np.isnan(values)
