@@ -8,6 +8,7 @@ the others what stands before and after it.
 from __future__ import annotations
 
 import dataclasses
+import json
 from collections import deque
 
 import numpy as np
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 
 from glidercli.errors import InputError
 from glidercli.log import Channel, Event, Log, Origin
+from glidercli.logio.derived.closure import closures_in
 from glidercli.logio.reader import Part
 from glidercli.logio.report import FileReport
 
@@ -203,13 +205,17 @@ def _origin(parts: list[Channel]) -> Origin:
 
 
 def _metadata(logs: list[Log]) -> dict[str, str]:
-    """The metadata of all; entries that differ stand one after the other, provenance is the first's."""
+    """The metadata of all; entries that differ stand one after the other, lists of closures as one; provenance is the
+    first's."""
     entries: dict[str, list[str]] = {}
     for log in logs:
         for key, value in log.metadata.items():
             entries.setdefault(key, []).append(value)
     one = {key: values[0] for key, values in entries.items()}
     told = {key: " | ".join(dict.fromkeys(values)) for key, values in entries.items() if key != "provenance"}
+    if "closures" in entries:
+        each = [closure for text in dict.fromkeys(entries["closures"]) for closure in closures_in(text)]
+        told["closures"] = json.dumps([closure for i, closure in enumerate(each) if closure not in each[:i]])
     return one | told
 
 

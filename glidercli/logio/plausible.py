@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from glidercli.channels import CHANNELS
+from glidercli.channels import CHANNELS, PHASES
 from glidercli.logio.quantities import Quantity
 
 __all__ = ["quantity_of"]
@@ -34,7 +34,7 @@ _LIMITS: dict[str, tuple[float, float]] = {
     "salinity": (0.0, 45.0),
     "absolute_salinity": (0.0, 45.0),
     "density": (900.0, 1100.0),
-    "phase": (0.0, 3.0),
+    "phase": (0.0, len(PHASES) - 1.0),
 }
 _OF_UNIT = {"m/s": (-10.0, 10.0), "rad/s": (-_TURN, _TURN)}
 

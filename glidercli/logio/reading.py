@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import glob
 import os
+import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -109,16 +110,23 @@ def _files(paths: Sequence[str | Path]) -> dict[Path, bool]:
         if path.is_dir():
             if not os.access(path, os.R_OK | os.X_OK):
                 raise InputError(path, "cannot be listed: permission denied")
-            found += [(p, True) for p in sorted(path.iterdir()) if not p.is_dir() and not p.name.startswith(".")]
+            inside = [p for p in path.iterdir() if not p.is_dir() and not p.name.startswith(".")]
+            found += [(p, True) for p in sorted(inside, key=_natural)]
         elif path.exists() or not glob.has_magic(str(given)):
             found.append((path, False))
         else:
-            matches = sorted(Path(match) for match in glob.glob(str(given)))
+            matches = [path for match in glob.glob(str(given)) if (path := Path(match)).is_file()]
             if not matches:
                 raise InputError(given, "no file matches")
-            found += [(match, False) for match in matches if match.is_file()]
+            found += [(match, False) for match in sorted(matches, key=_natural)]
     once = {path.resolve(): (path, of_folder) for path, of_folder in reversed(found)}
     return dict(reversed(once.values()))
+
+
+def _natural(path: Path) -> tuple[list[str | int], str]:
+    """Sorts numbers within names by their size: dive 101 before dive 1000."""
+    parts = re.split(r"([0-9]+)", str(path))
+    return [int(part) if i % 2 else part for i, part in enumerate(parts)], str(path)
 
 
 def _nothing(paths: Sequence[str | Path], reports: list[FileReport]) -> InputError:

@@ -14,6 +14,7 @@ from glidercli.errors import InputError, UsageError
 from glidercli.files import check_not_inputs, check_outputs
 from glidercli.log import Channel, Log
 from glidercli.logio.reading import read
+from glidercli.logio.records import NO_TIME, to_ns
 from glidercli.logio.report import FileReport
 from glidercli.logio.writing import SUFFIXES, write
 from glidercli.provenance import provenance_json
@@ -125,8 +126,8 @@ def _moment(log: Log, option: str, text: str | None) -> int | None:
         return log.start_ns + round(float(text) * 1e9)
     except (ValueError, OverflowError):
         pass
-    moment = pd.to_datetime(text, errors="coerce")
-    if pd.isna(moment):
+    moment = pd.to_datetime(text, errors="coerce", format="ISO8601", utc=True)
+    (time_ns,) = to_ns(pd.Series([moment]).dt.tz_localize(None))
+    if time_ns == NO_TIME:
         raise UsageError(f"{option}: {text!r} is no time; ISO 8601 UTC or seconds since the log's start are allowed")
-    moment = moment.tz_localize("UTC") if moment.tzinfo is None else moment.tz_convert("UTC")
-    return int(moment.as_unit("ns").value)
+    return int(time_ns)

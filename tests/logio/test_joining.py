@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import gzip
+import json
 import shutil
 from pathlib import Path
 
@@ -11,9 +12,10 @@ import numpy as np
 from conftest import ROOT
 
 from glidercli.log import Channel, Log
-from glidercli.logio import read
+from glidercli.logio import overview, read
 from glidercli.logio.joining import joined
 from glidercli.logio.reader import Part
+from glidercli.logio.reading import Reading
 from glidercli.logio.report import FileReport
 
 LOGS = ROOT / "logs/seaexplorer-sea035"
@@ -114,3 +116,21 @@ def test_a_cut_file_takes_no_whole_one_with_it(tmp_path: Path) -> None:
     raw, sub = read([tmp_path]).files
     assert raw.error is not None
     assert (raw.kept, sub.kept) == (0, 504)
+
+
+def test_closures_of_joined_logs_are_one_list(tmp_path: Path) -> None:
+    """Each file is one of this program's own, with closures in its metadata."""
+    one, other = {"start": "a"}, {"start": "b"}
+    parts = []
+    for number, closures in enumerate(([one], [one, other])):
+        made = part(f"{number}", [10 * number, 10 * number + 5], "depth")
+        parts.append(dataclasses.replace(made, log=made.log.with_metadata(closures=json.dumps(closures))))
+    log, _ = joined(parts)
+    assert json.loads(log.metadata["closures"]) == [one, other]
+
+
+def test_dives_far_apart_in_number_cost_no_memory() -> None:
+    """Numbers come from headers that may hold anything."""
+    log, reports = joined([part("n", [0], "depth")])
+    reading = Reading(log, tuple(reports), ("m.1", "m.5", "m.7", f"m.{10**15}"))
+    assert f"dives 2-4, 6, 8-{10**15 - 1} of m are not among the files" in overview(reading).missing

@@ -256,3 +256,10 @@ def test_a_column_that_is_named_twice_is_told(tmp_path: Path) -> None:
     head = HEAD.replace("Roll", "Pitch")
     with pytest.raises(InputError, match="line 1: column Pitch stands there twice; each may once"):
         read([write(tmp_path, *GOOD, head=head)])
+
+
+def test_a_year_that_no_clock_can_hold_is_no_time(tmp_path: Path) -> None:
+    """In 64 bits of ns the beginning of 2604 stands where July 2019 does."""
+    row = GOOD[5].replace("21/07/2019 10:05:00", "06/02/2604 09:40:00")
+    _, report = read_one(write(tmp_path, *GOOD[:5], row))
+    assert report.dropped == (("time cannot be read", 1),)

@@ -113,9 +113,7 @@ def part_of(path: Path, format: str, rows: Rows, holds: tuple[str, ...] = ()) ->
         if len(made):
             channels[channel] = made
     if {"conductivity", "pressure"} <= channels.keys():
-        origin = channels["conductivity"].origin
-        wet = submerged(channels["conductivity"], channels["pressure"], warnings)
-        channels["conductivity"] = Channel("conductivity", wet.time_ns, wet.values, origin)
+        channels["conductivity"] = submerged(channels["conductivity"], channels["pressure"], warnings)
     if "conductivity" in rows.found:
         channels |= {name: _based(channels[name], channels, warnings) for name in COMPUTED if name in channels}
     kept[good] = sampled(rows.time_ns[good], channels)

@@ -19,7 +19,7 @@ from glidercli.errors import InputError
 from glidercli.gzipped import beginning, unpacked
 from glidercli.log import Log
 from glidercli.logio.reader import Aids, Part
-from glidercli.logio.records import sampled, usable
+from glidercli.logio.records import sampled, to_ns, usable
 from glidercli.logio.report import FileReport
 from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, channels_of
 
@@ -104,7 +104,7 @@ def _rows(lines: list[str], names: list[str], dropped: Counter[str]) -> tuple[li
 
     The other lines are counted in ``dropped``; so is all from a header with other columns on.
     """
-    rows = []
+    rows: list[list[str]] = []
     for number, line in enumerate(lines[1:], 2):
         if not line.strip():
             continue
@@ -134,12 +134,12 @@ def _partner(recording: re.Match[str] | None) -> str:
 
 
 def _times(texts: list[str]) -> Times:
-    """Times in UTC ns; the smallest integer where a text is no time."""
+    """Times in UTC ns; NO_TIME where a text is no time."""
     import pandas as pd
 
     parsed = pd.to_datetime(pd.Series(texts, dtype=object), format="%d/%m/%Y %H:%M:%S.%f", errors="coerce")
     whole = pd.to_datetime(pd.Series(texts, dtype=object), format="%d/%m/%Y %H:%M:%S", errors="coerce")
-    return parsed.fillna(whole).to_numpy().astype("datetime64[ns]").astype(np.int64)
+    return to_ns(parsed.fillna(whole))
 
 
 def _numbers(texts: list[str]) -> Array:

@@ -17,7 +17,7 @@ from glidercli.errors import InputError
 from glidercli.gzipped import beginning
 from glidercli.log import Log
 from glidercli.logio.reader import Aids, Part
-from glidercli.logio.records import NO_TIME, usable
+from glidercli.logio.records import NO_TIME, sampled, usable
 from glidercli.logio.report import FileReport
 from glidercli.logio.slocum.channels import RELAYED, USED, Column, channels_of
 from glidercli.logio.slocum.cycles import Cycles
@@ -70,7 +70,7 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
     good[good] = usable(time_ns[good], {name: c.sampled[good] for name, c in columns.items()}, dropped)
     kept_columns = {name: Column(c.sampled[good], c.fresh[good], c.latest[good]) for name, c in columns.items()}
     channels, notes, warnings = channels_of(time_ns[good], kept_columns)
-    kept = np.isin(time_ns[good], np.concatenate([c.time_ns for c in channels] or [time_ns[:0]]))
+    kept = sampled(time_ns[good], {channel.name: channel for channel in channels})
     if not kept.all():
         dropped["no usable value"] += int((~kept).sum())
     if repeated:
