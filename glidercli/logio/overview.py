@@ -58,8 +58,8 @@ class Sampling:
             "gaps": self.gaps,
             "longest_gap_s": self.longest,
             "longest_gap_after": None if self.after_ns is None else iso(self.after_ns),
-            "minimum": float(values.min()) * spec.factor if ordered else None,
-            "maximum": float(values.max()) * spec.factor if ordered else None,
+            "minimum": float(values.min()) * spec.factor + 0.0 if ordered else None,  # no -0.0
+            "maximum": float(values.max()) * spec.factor + 0.0 if ordered else None,
         }
 
 
@@ -83,13 +83,17 @@ class Yo:
 
 @dataclasses.dataclass(frozen=True)
 class Overview:
-    """What a recording holds. missing : what one would look for and not find, a line each."""
+    """What a recording holds.
+
+    missing : what one would look for and not find, a line each. unread : columns with data that are not read.
+    """
 
     log: Log
     files: tuple[FileReport, ...]
     channels: tuple[Sampling, ...]
     dives: tuple[Yo, ...]
     missing: tuple[str, ...]
+    unread: tuple[str, ...]
 
     def document(self) -> dict[str, Any]:
         """As JSON."""
@@ -106,6 +110,7 @@ class Overview:
             "closures": closures_in(self.log.metadata.get("closures", "[]")),
             "events": [{"name": e.name, "time": iso(e.time_ns), "depth_m": e.depth} for e in self.log.events],
             "missing": list(self.missing),
+            "not_read": list(self.unread),
             "metadata": {key: text for key, text in self.log.metadata.items() if key not in provenance},
         }
 
@@ -114,7 +119,7 @@ def overview(reading: Reading) -> Overview:
     """What a reading holds."""
     log = reading.log
     channels = tuple(_sampling(channel) for channel in log.channels.values() if len(channel))
-    return Overview(log, reading.files, channels, _dives(log), tuple(_missing(reading)))
+    return Overview(log, reading.files, channels, _dives(log), tuple(_missing(reading)), reading.unread)
 
 
 def _sampling(channel: Channel) -> Sampling:

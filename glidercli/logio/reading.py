@@ -28,13 +28,19 @@ class Reading:
     """A log, and the account of every file that it came from.
 
     dives : names of the dives that the files tell. partners : recordings that usually stand beside one that was read
-    and are missing, each with that one.
+    and are missing, each with that one. unread : names of columns with data that no channel is taken from.
     """
 
     log: Log
     files: tuple[FileReport, ...]
     dives: tuple[str, ...] = ()
     partners: tuple[tuple[str, str], ...] = ()
+    unread: tuple[str, ...] = ()
+
+    @property
+    def inputs(self) -> list[Path]:
+        """The files that the log was made from, each once, with what was read beside them."""
+        return list(dict.fromkeys(p for report in self.files if report.kept for p in (report.path, *report.beside)))
 
 
 def read(
@@ -70,13 +76,15 @@ def read(
     files = _files(paths)
     parts: list[Part] = []
     reports: dict[Path, FileReport] = {}
+    unread: dict[str, None] = {}
     for found in read_all(list(files), format, aids, progress, workers):
         report = found.report if isinstance(found, Part) else found
         if report.format is None and files[report.path] and is_companion(report.path):
             continue
         reports[report.path] = report
         if isinstance(found, Part):
-            parts.append(found)
+            unread |= dict.fromkeys(found.unread)
+            parts.append(dataclasses.replace(found, unread=()))  # thousands of files may name thousands of columns
     parts = _without_outputs(parts, files, reports)
     if not parts:
         raise _nothing(paths, list(reports.values()))
@@ -87,7 +95,7 @@ def read(
     reports |= {report.path: report for report in whole}
     if not all(FORMATS[report.format].own for report in whole if report.format):
         log = with_derived(log)
-    return Reading(log, tuple(reports.values()), dives, partners)
+    return Reading(log, tuple(reports.values()), dives, partners, tuple(unread))
 
 
 def _without_outputs(parts: list[Part], files: dict[Path, bool], reports: dict[Path, FileReport]) -> list[Part]:

@@ -60,8 +60,8 @@ def _channel(channel: Channel) -> dict[str, Any]:
         "samples": len(channel),
         "first": iso(channel.time_ns[0]),
         "last": iso(channel.time_ns[-1]),
-        "minimum": float(values.min()) if ordered else None,
-        "maximum": float(values.max()) if ordered else None,
+        "minimum": float(values.min()) + 0.0 if ordered else None,  # no -0.0
+        "maximum": float(values.max()) + 0.0 if ordered else None,
         "origin": channel.origin,
     }
 
@@ -107,9 +107,9 @@ def replay(
                 f"no sample lies there; the log runs {iso(reading.log.start_ns)} to {iso(reading.log.end_ns)}",
             )
     mappings = [] if columns is None else [Path(columns)]
-    check_not_inputs(targets, [*(report.path for report in reading.files), *mappings])
-    inputs = [report.path for report in reading.files if report.kept]
-    log = log.with_metadata(provenance=provenance_json(inputs=[*inputs, *mappings], origin=log.origin))
+    check_not_inputs(targets, [*(report.path for report in reading.files), *reading.inputs, *mappings])
+    inputs = dict.fromkeys([*reading.inputs, *mappings])
+    log = log.with_metadata(provenance=provenance_json(inputs=inputs, origin=log.origin))
     if stage is not None and targets:
         stage("writing")
     write(log, *targets, force=force)

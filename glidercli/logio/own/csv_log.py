@@ -94,6 +94,7 @@ def read_csv(path: Path, aids: Aids = Aids()) -> Part:
             table[name] = _phases(path, text[name]) if spec.name == "phase" else _numbers(path, name, text[name])
     metadata = read_metadata(path)
     warnings = [f"columns not known and not used: {', '.join(unknown)}"] if unknown else []
+    unread = [name for name in unknown if text[name].str.strip().any()]
     word = _origin_of_rows(path, text, warnings)
     beside = metadata_path(path).name
     if metadata:
@@ -108,7 +109,7 @@ def read_csv(path: Path, aids: Aids = Aids()) -> Part:
     without_impossible(table, metadata, word, warnings)
     log = log_of(table, metadata, word, "time_utc" in text, warnings)
     log = Log({c.name: c for c in log.channels.values() if len(c)}, log.origin, log.metadata, log.events)
-    return part_of(path, "glider-csv", log, table, {"wrong number of fields": cut}, warnings)
+    return part_of(path, "glider-csv", log, table, {"wrong number of fields": cut}, warnings, unread)
 
 
 def _check_same(path: Path, table: Any, metadata: dict[str, Any], dated: bool) -> None:

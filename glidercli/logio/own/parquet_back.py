@@ -83,10 +83,10 @@ def read_own_parquet(path: Path, aids: Aids = Aids()) -> Part:
     log = log_of(table, metadata, word, "time_utc" in columns, warnings)
     if not metadata:
         sampled = {name: channel for name, channel in log.channels.items() if len(channel)}
-        return part_of(path, "glider-parquet", Log(sampled, log.origin, log.metadata), table, {}, warnings)
+        return part_of(path, "glider-parquet", Log(sampled, log.origin, log.metadata), table, {}, warnings, unknown)
     channels = {name: _with_origin(c, of_fields[CHANNELS[name].column]) for name, c in log.channels.items()}
     log = Log(channels, log.origin, log.metadata, log.events)
-    return part_of(path, "glider-parquet", log, table, {}, warnings)
+    return part_of(path, "glider-parquet", log, table, {}, warnings, unknown)
 
 
 def _with_origin(channel: Channel, told: str) -> Channel:

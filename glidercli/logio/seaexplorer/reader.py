@@ -21,7 +21,7 @@ from glidercli.log import Log
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import sampled, to_ns, usable
 from glidercli.logio.report import FileReport
-from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, channels_of
+from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, USED, channels_of
 
 __all__ = ["is_seaexplorer", "read_seaexplorer"]
 
@@ -62,6 +62,7 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
     table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if i > 0 and name}
     known = {name: np.where(np.isin(values, SENTINELS), np.nan, values) for name, values in table.items()}
     good = usable(time_ns, known, dropped)
+    unread = tuple(name for name, values in known.items() if name not in USED and not np.isnan(values[good]).all())
     table = {name: values[good] for name, values in table.items()}
     channels, warnings = channels_of(time_ns[good], table)
     named = NAME.match(path.name)
@@ -85,6 +86,7 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
         holds=(f"{recording['mission']}.{recording['unit']}.{recording['dive']}".lower(),) if recording else (),
         fullness=int(recording is not None and recording["kind"].lower() == "raw"),
         partner=_partner(recording),
+        unread=unread,
     )
 
 

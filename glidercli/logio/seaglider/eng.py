@@ -37,7 +37,11 @@ def read_eng(path: Path, data: bytes) -> Part:
     rows = [row for row in split if len(row) == len(names)]
     gathering.records += len(split) - len(rows)
     gathering.drop("", "wrong number of fields", len(split) - len(rows))
-    table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if name in (TIME, *COLUMNS)}
+    used = (TIME, *COLUMNS)
+    table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if name in used}
+    gathering.unread += [
+        name for i, name in enumerate(names) if name not in used and any(row[i].lower() != "nan" for row in rows)
+    ]
     elapsed = table.pop(TIME)
     sane = np.abs(elapsed) < LONGEST
     since = np.where(sane, np.round(np.where(sane, elapsed, 0.0) * 1e6), 0.0).astype(np.int64) * 1000
@@ -46,6 +50,8 @@ def read_eng(path: Path, data: bytes) -> Part:
     good = gathering.usable("", time_ns, table)
     time_ns, table = time_ns[good], {name: values[good] for name, values in table.items()}
     declination, events = _beside(path)
+    if declination is not None or events:
+        gathering.beside.append(_log_of(path))
     channels = engineering(time_ns, table, {name: name for name in table}, declination, gathering.warnings)
     channels = clear_of_motors(channels, events, gathering.warnings)
     if "depth" in table:
@@ -61,7 +67,7 @@ def read_eng(path: Path, data: bytes) -> Part:
 
 def _beside(path: Path) -> tuple[float | None, tuple[Event, ...]]:
     """Magnetic variation, deg, or None, and events of the .log of the same name, if it is there and can be read."""
-    beside = path.with_suffix(".log")
+    beside = _log_of(path)
     try:
         data = beside.read_bytes()
         if not is_text(data):
@@ -69,6 +75,10 @@ def _beside(path: Path) -> tuple[float | None, tuple[Event, ...]]:
         return declination_of(read_text(beside, data).lines), read_log(beside, data).log.events
     except (OSError, InputError):
         return None, ()
+
+
+def _log_of(path: Path) -> Path:
+    return path.with_suffix(".log")
 
 
 def _numbers(texts: list[str]) -> NDArray[np.float64]:

@@ -22,7 +22,7 @@ from glidercli.logio.report import FileReport
 from glidercli.logio.slocum.channels import RELAYED, USED, Column, channels_of
 from glidercli.logio.slocum.cycles import Cycles
 from glidercli.logio.slocum.packing import LABEL, is_packed
-from glidercli.logio.slocum.sensors import cycles_of, times_of
+from glidercli.logio.slocum.sensors import CLOCKS, cycles_of, times_of
 
 __all__ = ["is_slocum", "read_slocum"]
 
@@ -49,7 +49,7 @@ def is_slocum(path: Path) -> bool:
 
 def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
     """One file; raises InputError where nothing of it can be read, such as for want of its cache."""
-    cycles, damage = cycles_of(path, aids.cache)
+    cycles, damage, caches = cycles_of(path, aids.cache)
     tags = cycles.header.tags
     kind, fullness = KINDS.get(tags["filename_extension"].lower(), ("", 0))
     if not kind:
@@ -79,7 +79,7 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
         warnings.insert(0, cycles.remark)
     report = FileReport(
         path, "slocum", len(cycles) + sum(cycles.torn.values()), int(kept.sum()), tuple(sorted(dropped.items())),
-        tuple(warnings), "; ".join(text for text in (damage, cycles.error) if text) or None,
+        tuple(warnings), "; ".join(text for text in (damage, cycles.error) if text) or None, caches,
     )  # fmt: skip
     recording = tags["full_filename"].lower()
     platform = f"Slocum {recording.split('-')[0]}"
@@ -97,6 +97,7 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
         fullness=fullness,
         yields=RELAYED if kind == NAVIGATION else frozenset(),
         partner=f"{recording} {SCIENCE if kind == NAVIGATION else NAVIGATION}",
+        unread=tuple(name for name in cycles.told() if name not in (*USED, *CLOCKS)),
     )
 
 
