@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -51,7 +52,7 @@ def compare(
     debug: Debug = False,
 ) -> None:
     """Errors of a simulation by channel and phase, or its verdicts on published values."""
-    from glidercli.cli.printing import json_text, say, warn
+    from glidercli.cli.printing import json_text, plain, say, shown, warn
     from glidercli.cli.progress import progress
     from glidercli.compare import SUFFIXES, matching, write
     from glidercli.compare import compare as compared
@@ -87,7 +88,7 @@ def compare(
             against = _log(measured, source, inputs, quiet)
         logs = [_log(name, source, inputs, quiet) for name in simulated]
         bar.stage("comparing")
-        check_not_inputs(files, inputs)
+        check_not_inputs(files, [*inputs, *source.files])
         comparison = compared(
             against,
             logs,
@@ -103,7 +104,12 @@ def compare(
         write(comparison, *files, provenance=record, force=force)
     for path in files:
         say(f"wrote {path}", quiet)
-    print(json_text(comparison.document()) if json or Path("-") in (output or []) else comparison.text())
+    if json or Path("-") in (output or []):
+        print(json_text(comparison.document()))
+    else:
+        for line in comparison.text().split("\n"):
+            prose = line.endswith((".", ":"))  # rows of tables stay whole
+            print(shown(line, sys.stdout) if prose else plain(line))
 
 
 def _facts_file(text: str) -> Path | None:
@@ -125,7 +131,7 @@ def _log(text: str, source: LogSource, inputs: list[Path], quiet: bool) -> Log:
     from glidercli.cli.printing import warn
 
     reading = source.reading(text)
-    inputs += [Path(file.path) for file in reading.files]
+    inputs += reading.inputs
     for file in reading.files:
         lost = ", ".join(f"{count} {reason}" for reason, count in file.dropped)
         counted = [f"{file.records - file.kept} of {file.records} records dropped: {lost}"] if lost else []

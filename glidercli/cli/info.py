@@ -11,6 +11,7 @@ import typer
 from glidercli.cli.options import CacheOption, ColumnsOption, Debug, FormatOption, Json, Quiet
 
 _MOST_ROWS = 14  # of the tables of files and dives
+_MOST_NAMES = 20  # of columns that are not read
 _WIDTH = 80  # columns of a terminal
 _WIDTHS = (8, 8, 4, 8, 8, 8)  # of the cells of a channel
 
@@ -72,7 +73,15 @@ def _text(d: dict[str, Any]) -> list[str]:
         lines += ["", "missing:"]
         for line in d["missing"]:
             lines += textwrap.wrap(line, _WIDTH, initial_indent="  ", subsequent_indent="    ")
+    if d["not_read"]:
+        lines += ["", *textwrap.wrap(_not_read(d["not_read"]), _WIDTH, subsequent_indent="  ")]
     return lines
+
+
+def _not_read(names: list[str]) -> str:
+    """How many columns are not read, and the first of them by name."""
+    more = f" and {len(names) - _MOST_NAMES} more (--json has them all)" if len(names) > _MOST_NAMES else ""
+    return f"not read, {_count(len(names), 'column')} with data: {', '.join(names[:_MOST_NAMES])}{more}"
 
 
 def _row(name: str, *cells: str) -> str:

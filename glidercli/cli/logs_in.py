@@ -38,10 +38,15 @@ class LogSource:
             self._readings[path] = read([path], cache=self._cache, columns=self._columns, workers=cores())
         return self._readings[path]
 
+    @property
+    def files(self) -> list[Path]:
+        """Every file that was looked at, readable or not."""
+        return [report.path for reading in self._readings.values() for report in reading.files]
+
 
 @dataclasses.dataclass(frozen=True)
 class LogsIn:
-    """read : logs by option. files : all that they came from. warnings : of reading, one line each."""
+    """read : logs by option. files : all that they were made from. warnings : of reading, one line each."""
 
     read: dict[str, Log]
     files: list[Path]
@@ -56,4 +61,5 @@ def read_logs(wanted: Mapping[str, str | None], source: LogSource) -> LogsIn:
     warnings = [f"{report.path}: {line}" for report in reports for line in report.warnings]
     warnings += [f"{report.path}: {report.error}" for report in reports if report.error]
     logs = {option: readings[path].log.with_metadata(source=path) for option, path in given.items()}
-    return LogsIn(logs, [report.path for report in reports if not report.error], warnings)
+    files = dict.fromkeys(path for reading in readings.values() for path in reading.inputs)
+    return LogsIn(logs, list(files), warnings)

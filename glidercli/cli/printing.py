@@ -5,8 +5,12 @@ from __future__ import annotations
 import json
 import math
 import sys
+import textwrap
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, TextIO
+
+WIDTH = 80
+"""Columns of a terminal."""
 
 
 def finite(value: Any) -> Any:
@@ -27,6 +31,20 @@ def plain(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
+def shown(text: str, stream: TextIO) -> str:
+    """A line as it goes to a stream: wrapped for a terminal, whole for a pipe, so that grep finds it."""
+    return "\n".join(wrapped(text)) if stream.isatty() else plain(text)
+
+
+def wrapped(text: str) -> list[str]:
+    """A line within 80 columns; what goes on is indented. Names of files stay whole."""
+    text = plain(text)
+    indent = " " * (len(text) - len(text.lstrip()) + 2)
+    return textwrap.wrap(
+        text, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+    ) or [""]  # fmt: skip
+
+
 def json_text(document: Any) -> str:
     """The document as JSON; non-finite numbers are null."""
     return json.dumps(finite(document), indent=2, allow_nan=False, ensure_ascii=False)
@@ -36,7 +54,7 @@ def warn(messages: Iterable[str], quiet: bool) -> None:
     """Each message as one line on stderr, unless quiet."""
     if not quiet:
         for message in messages:
-            print(plain(f"glider: warning: {message}"), file=sys.stderr)
+            print(shown(f"glider: warning: {message}", sys.stderr), file=sys.stderr)
 
 
 def say(message: str, quiet: bool) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
@@ -30,7 +31,7 @@ def replay(
     """Recorded field logs: what they hold, and into MCAP, Rerun and CSV."""
     from glidercli.cli.logs_in import cores
     from glidercli.cli.outputs import check_log_outputs, write_log
-    from glidercli.cli.printing import json_text, plain, say, warn
+    from glidercli.cli.printing import json_text, say, shown, warn
     from glidercli.cli.progress import progress
     from glidercli.logio import replay as play
 
@@ -50,7 +51,8 @@ def replay(
     if json:
         print(json_text(played.document()))
     elif not stdout:
-        print("\n".join(map(plain, _summary(played.document(), played.log.kind, played.log.metadata))))
+        for line in _summary(played.document(), played.log.kind, played.log.metadata):
+            print(shown(line, sys.stdout))
 
 
 def _summary(d: dict[str, Any], kind_of_log: str, metadata: Mapping[str, str]) -> list[str]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from glidercli.errors import InputError, UsageError
 from glidercli.files import readable_file
-from glidercli.gzipped import is_gzip
+from glidercli.gzipped import beginning, is_gzip
 from glidercli.logio.netcdf.ioos import is_ioos, read_ioos
 from glidercli.logio.netcdf.og1 import is_og1, read_og1
 from glidercli.logio.own.csv_log import is_csv, read_csv
@@ -48,6 +48,10 @@ FORMATS: dict[str, Format] = {
 }
 """Formats by name, asked in this order."""
 
+_HEAD = 65536
+_NOT_PACKED = {b"\x89MCAP": "MCAP", b"PAR1": "Parquet", b"\x89HDF": "NetCDF", b"CDF": "NetCDF"}
+"""How files begin that are read unpacked alone."""
+
 
 def check_format(name: str | None) -> None:
     """Raise UsageError for a name that is no format."""
@@ -80,6 +84,16 @@ def read_file(path: Path, format: str | None, aids: Aids) -> Part:
     return FORMATS[recognised(path, format, aids)].read(readable_file(path), aids)
 
 
+def _packed(unpacked: bytes) -> str:
+    """What is wrong with gzip data of no format. unpacked : their beginning."""
+    kind = next((kind for start, kind in _NOT_PACKED.items() if unpacked.startswith(start)), "")
+    if not kind and any(column in unpacked.split(b"\n", 1)[0].split(b",") for column in (b"time_utc", b"elapsed_s")):
+        kind = "a table"
+    if kind:
+        return f"is {kind} in gzip, which is read unpacked alone: gunzip it first"
+    return "is gzip data that unpack to no log: damaged, or not one"
+
+
 def _unrecognised(path: Path) -> InputError:
     """What is wrong with a file that is of no format."""
     kinds = ", ".join(FORMATS)
@@ -91,6 +105,6 @@ def _unrecognised(path: Path) -> InputError:
             return damaged
     else:
         with path.open("rb") as stream:
-            packed = is_gzip(stream.read(2))
-        what = "is gzip data that unpack to no log: damaged, or not one" if packed else "is not a log that can be read"
+            data = stream.read(_HEAD)
+        what = _packed(beginning(data, _HEAD)) if is_gzip(data) else "is not a log that can be read"
     return InputError(path, f"{what}; readable are {kinds}")

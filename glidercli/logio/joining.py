@@ -1,13 +1,15 @@
 """When do several files make one log? In time order, no record twice, nothing of another origin among them.
 
-Files of one dive (navigation and payload) may interleave. Dives follow one another: what is not after the one before
-is dropped and counted. Of files that hold the same recording the best is read, and of
+Files of one dive (navigation and payload) may interleave; where they share no time, as with a clock a year off, that is
+told, and they are placed like files of different dives. Dives follow one another: what is not after the one before is
+dropped and counted. Of files that hold the same recording the best is read, and of
 the others what stands before and after it.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import json
 from collections import deque
 
 import numpy as np
@@ -15,6 +17,7 @@ from numpy.typing import NDArray
 
 from glidercli.errors import InputError
 from glidercli.log import Channel, Event, Log, Origin
+from glidercli.logio.derived.closure import closures_in
 from glidercli.logio.derived.motion import with_phase
 from glidercli.logio.reader import Part
 from glidercli.logio.report import FileReport
@@ -54,8 +57,10 @@ def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]
     holders.clear()
     reached: dict[str, int] = {}
     kept: list[Log] = []
-    ordered = deque(sorted(dives.values(), key=lambda files: min(part.log.start_ns for part in files)))
+    apart = [group for dive in dives.values() for group in _apart(dive)]
     dives.clear()
+    ordered = deque(sorted(apart, key=lambda files: min(part.log.start_ns for part in files)))
+    apart.clear()
     while ordered:
         dive = ordered.popleft()
         dive = [_after(part, reached) for part in _without_yielded(dive)]
@@ -115,6 +120,38 @@ def _beyond(part: Part, best: Part) -> Part:
     return dataclasses.replace(kept, log=dataclasses.replace(part.log, channels=channels, events=events))
 
 
+def _apart(dive: list[Part]) -> list[list[Part]]:
+    """The files of a dive in groups that share no time, earlier ones first; all but the first group say so."""
+    groups: list[list[Part]] = []
+    for part in sorted(dive, key=lambda part: part.log.start_ns):
+        before = groups[-1] if groups else []
+        if before and part.log.start_ns <= max(other.log.end_ns for other in before):
+            before.append(part)
+            continue
+        if before:
+            note = (
+                f"{_span([part])}: shares no time with {before[0].report.path.name} of the same dive, {_span(before)}; "
+                "both are kept, is a clock wrong?"
+            )
+            part = _with_note(part, note)
+        groups.append([part])
+    if len(groups) == 1:
+        return [dive]  # in the given order: of two samples at one time the first file's is kept
+    return groups
+
+
+def _span(parts: list[Part]) -> str:
+    """From when to when files go."""
+    ends = (min(part.log.start_ns for part in parts), max(part.log.end_ns for part in parts))
+    first, last = (f"{np.datetime64(time_ns, 'ns').astype('datetime64[s]')}Z" for time_ns in ends)
+    return f"{first} to {last}"
+
+
+def _with_note(part: Part, note: str) -> Part:
+    report = dataclasses.replace(part.report, warnings=(*part.report.warnings, note))
+    return dataclasses.replace(part, report=report)
+
+
 def _without_yielded(dive: list[Part]) -> list[Part]:
     """The files of a dive, without the channels that one gives up since another has them."""
     left = []
@@ -126,11 +163,7 @@ def _without_yielded(dive: list[Part]) -> list[Part]:
             count = sum(len(part.log[name]) for name in given)
             note = f"{', '.join(given)}: {count} values left out, another file of the dive gives them"
             times = np.unique(np.concatenate([c.time_ns for c in channels.values()] or [part.record_ns[:0]]))
-            part = dataclasses.replace(
-                part,
-                log=dataclasses.replace(part.log, channels=channels),
-                report=dataclasses.replace(part.report, warnings=(*part.report.warnings, note)),
-            )
+            part = _with_note(dataclasses.replace(part, log=dataclasses.replace(part.log, channels=channels)), note)
             part = _keeping(part, np.isin(part.record_ns, times), "no other value than those left out")
         left.append(part)
     return left
@@ -154,10 +187,7 @@ def _after(part: Part, reached: dict[str, int]) -> Part:
         return part
     if part.log.start_ns - end > FAR:
         days = (part.log.start_ns - end) / FAR
-        note = f"starts {days:.1f} days after the file before it; joined all the same"
-        part = dataclasses.replace(
-            part, report=dataclasses.replace(part.report, warnings=(*part.report.warnings, note))
-        )
+        part = _with_note(part, f"starts {days:.1f} days after the file before it; joined all the same")
     if part.log.start_ns > end:
         return part
     part = _keeping(part, part.record_ns > end, "time not after the file before it")
@@ -207,13 +237,17 @@ def _origin(parts: list[Channel]) -> Origin:
 
 
 def _metadata(logs: list[Log]) -> dict[str, str]:
-    """The metadata of all; entries that differ stand one after the other, provenance is the first's."""
+    """The metadata of all; entries that differ stand one after the other, lists of closures as one; provenance is the
+    first's."""
     entries: dict[str, list[str]] = {}
     for log in logs:
         for key, value in log.metadata.items():
             entries.setdefault(key, []).append(value)
     one = {key: values[0] for key, values in entries.items()}
     told = {key: " | ".join(dict.fromkeys(values)) for key, values in entries.items() if key != "provenance"}
+    if "closures" in entries:
+        each = [closure for text in dict.fromkeys(entries["closures"]) for closure in closures_in(text)]
+        told["closures"] = json.dumps([closure for i, closure in enumerate(each) if closure not in each[:i]])
     return one | told
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-import json
+import itertools
 import re
 from typing import Any
 
@@ -12,6 +12,7 @@ import numpy as np
 from glidercli.channels import CHANNELS
 from glidercli.dives import phases
 from glidercli.log import Channel, Log
+from glidercli.logio.derived.closure import closures_in
 from glidercli.logio.reading import Reading
 from glidercli.logio.replaying import iso
 from glidercli.logio.report import FileReport
@@ -57,8 +58,8 @@ class Sampling:
             "gaps": self.gaps,
             "longest_gap_s": self.longest,
             "longest_gap_after": None if self.after_ns is None else iso(self.after_ns),
-            "minimum": float(values.min()) * spec.factor if ordered else None,
-            "maximum": float(values.max()) * spec.factor if ordered else None,
+            "minimum": float(values.min()) * spec.factor + 0.0 if ordered else None,  # no -0.0
+            "maximum": float(values.max()) * spec.factor + 0.0 if ordered else None,
         }
 
 
@@ -82,13 +83,17 @@ class Yo:
 
 @dataclasses.dataclass(frozen=True)
 class Overview:
-    """What a recording holds. missing : what one would look for and not find, a line each."""
+    """What a recording holds.
+
+    missing : what one would look for and not find, a line each. unread : columns with data that are not read.
+    """
 
     log: Log
     files: tuple[FileReport, ...]
     channels: tuple[Sampling, ...]
     dives: tuple[Yo, ...]
     missing: tuple[str, ...]
+    unread: tuple[str, ...]
 
     def document(self) -> dict[str, Any]:
         """As JSON."""
@@ -102,9 +107,10 @@ class Overview:
             "files": [report.document() for report in self.files],
             "channels": [channel.document() for channel in self.channels],
             "dives": [dive.document() for dive in self.dives],
-            "closures": json.loads(self.log.metadata.get("closures", "[]")),
+            "closures": closures_in(self.log.metadata.get("closures", "[]")),
             "events": [{"name": e.name, "time": iso(e.time_ns), "depth_m": e.depth} for e in self.log.events],
             "missing": list(self.missing),
+            "not_read": list(self.unread),
             "metadata": {key: text for key, text in self.log.metadata.items() if key not in provenance},
         }
 
@@ -113,7 +119,7 @@ def overview(reading: Reading) -> Overview:
     """What a reading holds."""
     log = reading.log
     channels = tuple(_sampling(channel) for channel in log.channels.values() if len(channel))
-    return Overview(log, reading.files, channels, _dives(log), tuple(_missing(reading)))
+    return Overview(log, reading.files, channels, _dives(log), tuple(_missing(reading)), reading.unread)
 
 
 def _sampling(channel: Channel) -> Sampling:
@@ -151,21 +157,15 @@ def _missing(reading: Reading) -> list[str]:
         if match := re.fullmatch(r"(.*?)(\d+)", dive):
             numbers.setdefault(match[1], set()).add(int(match[2]))
     for series, known in numbers.items():
-        gaps = sorted(set(range(min(known), max(known))) - known)
-        if gaps:
-            lines.append(f"dives {_ranges(gaps)} of {series.rstrip('.- ')} are not among the files")
+        if gaps := _gaps(known):
+            lines.append(f"dives {gaps} of {series.rstrip('.- ')} are not among the files")
     for name in USUAL:
         if not any(len(reading.log.channels.get(other, ())) for other in (name, *INSTEAD.get(name, ()))):
             lines.append(f"no {name.replace('_', ' ')}")
     return lines
 
 
-def _ranges(numbers: list[int]) -> str:
-    """1, 2, 3, 7 as "1-3, 7"."""
-    runs: list[list[int]] = []
-    for number in numbers:
-        if runs and number == runs[-1][1] + 1:
-            runs[-1][1] = number
-        else:
-            runs.append([number, number])
+def _gaps(numbers: set[int]) -> str:
+    """What lies between numbers: of 1, 5, 7 "2-4, 6"."""
+    runs = [(one + 1, other - 1) for one, other in itertools.pairwise(sorted(numbers)) if other - one > 1]
     return ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in runs)

@@ -98,7 +98,7 @@ def submerged(conductivity: Channel, pressure: Channel | None, warnings: list[st
         )
     if blind:
         warnings.append(f"conductivity: {blind} values without a pressure left out: the cell may be in air")
-    return Channel("conductivity", conductivity.time_ns[under], conductivity.values[under])
+    return Channel("conductivity", conductivity.time_ns[under], conductivity.values[under], conductivity.origin)
 
 
 def degrees(value: Array) -> Array:

@@ -39,6 +39,7 @@ class Part:
     fullness : of several files that hold the same, the one with the most counts.
     partner : name of the recording that a file beside this one usually holds, or "".
     yields : channels that are given up where another file of the dive has them.
+    unread : names of columns with data that no channel is taken from.
     """
 
     log: Log
@@ -49,6 +50,7 @@ class Part:
     fullness: int = 0
     yields: frozenset[str] = frozenset()
     partner: str = ""
+    unread: tuple[str, ...] = ()
 
 
 @dataclasses.dataclass(frozen=True)

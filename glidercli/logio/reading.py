@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import glob
 import os
+import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -27,13 +28,19 @@ class Reading:
     """A log, and the account of every file that it came from.
 
     dives : names of the dives that the files tell. partners : recordings that usually stand beside one that was read
-    and are missing, each with that one.
+    and are missing, each with that one. unread : names of columns with data that no channel is taken from.
     """
 
     log: Log
     files: tuple[FileReport, ...]
     dives: tuple[str, ...] = ()
     partners: tuple[tuple[str, str], ...] = ()
+    unread: tuple[str, ...] = ()
+
+    @property
+    def inputs(self) -> list[Path]:
+        """The files that the log was made from, each once, with what was read beside them."""
+        return list(dict.fromkeys(p for report in self.files if report.kept for p in (report.path, *report.beside)))
 
 
 def read(
@@ -69,13 +76,15 @@ def read(
     files = _files(paths)
     parts: list[Part] = []
     reports: dict[Path, FileReport] = {}
+    unread: dict[str, None] = {}
     for found in read_all(list(files), format, aids, progress, workers):
         report = found.report if isinstance(found, Part) else found
         if report.format is None and files[report.path] and is_companion(report.path):
             continue
         reports[report.path] = report
         if isinstance(found, Part):
-            parts.append(found)
+            unread |= dict.fromkeys(found.unread)
+            parts.append(dataclasses.replace(found, unread=()))  # thousands of files may name thousands of columns
     parts = _without_outputs(parts, files, reports)
     if not parts:
         raise _nothing(paths, list(reports.values()))
@@ -87,7 +96,7 @@ def read(
     reports |= {report.path: report for report in whole}
     if not own:
         log = with_derived(log)
-    return Reading(log, tuple(reports.values()), dives, partners)
+    return Reading(log, tuple(reports.values()), dives, partners, tuple(unread))
 
 
 def _without_outputs(parts: list[Part], files: dict[Path, bool], reports: dict[Path, FileReport]) -> list[Part]:
@@ -110,16 +119,23 @@ def _files(paths: Sequence[str | Path]) -> dict[Path, bool]:
         if path.is_dir():
             if not os.access(path, os.R_OK | os.X_OK):
                 raise InputError(path, "cannot be listed: permission denied")
-            found += [(p, True) for p in sorted(path.iterdir()) if not p.is_dir() and not p.name.startswith(".")]
+            inside = [p for p in path.iterdir() if not p.is_dir() and not p.name.startswith(".")]
+            found += [(p, True) for p in sorted(inside, key=_natural)]
         elif path.exists() or not glob.has_magic(str(given)):
             found.append((path, False))
         else:
-            matches = sorted(Path(match) for match in glob.glob(str(given)))
+            matches = [path for match in glob.glob(str(given)) if (path := Path(match)).is_file()]
             if not matches:
                 raise InputError(given, "no file matches")
-            found += [(match, False) for match in matches if match.is_file()]
+            found += [(match, False) for match in sorted(matches, key=_natural)]
     once = {path.resolve(): (path, of_folder) for path, of_folder in reversed(found)}
     return dict(reversed(once.values()))
+
+
+def _natural(path: Path) -> tuple[list[str | int], str]:
+    """Sorts numbers within names by their size: dive 101 before dive 1000."""
+    parts = re.split(r"([0-9]+)", str(path))
+    return [int(part) if i % 2 else part for i, part in enumerate(parts)], str(path)
 
 
 def _nothing(paths: Sequence[str | Path], reports: list[FileReport]) -> InputError:

@@ -9,13 +9,14 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections import Counter
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.log import Channel
 
-__all__ = ["NO_TIME", "in_order", "sampled", "usable"]
+__all__ = ["NO_TIME", "YEARS", "in_order", "sampled", "to_ns", "usable"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -23,12 +24,22 @@ Mask = NDArray[np.bool_]
 
 NO_TIME = np.iinfo(np.int64).min
 """Stands for a time that cannot be read."""
+YEARS = ("1700-01-01", "2200-01-01")
+"""Times allowed: nanoseconds in 64 bits hold little more, and others would come back as times between."""
 STRAY = 30 * 86400 * 10**9
 """Times of one file that stand further apart than this are of two clocks, ns."""
 BORN = 631_152_000 * 10**9
 """1990-01-01, UTC ns: no glider flew before."""
 HELD = 3
 """So many records show that a clock was set; fewer may be garbled."""
+
+
+def to_ns(moments: Any) -> Times:
+    """UTC ns of a pandas Series of times without a zone; NO_TIME where it has none, or one outside of YEARS."""
+    import pandas as pd
+
+    told = moments.between(*map(pd.Timestamp, YEARS))
+    return np.asarray(np.where(told, moments.where(told).to_numpy().astype("datetime64[ns]").astype(np.int64), NO_TIME))
 
 
 def usable(time_ns: Times, cells: Mapping[str, Array], dropped: Counter[str]) -> Mask:

@@ -14,6 +14,7 @@ from glidercli.errors import InputError, UsageError
 from glidercli.files import check_not_inputs, check_outputs
 from glidercli.log import Channel, Log
 from glidercli.logio.reading import read
+from glidercli.logio.records import NO_TIME, to_ns
 from glidercli.logio.report import FileReport
 from glidercli.logio.writing import SUFFIXES, write
 from glidercli.provenance import provenance_json
@@ -59,8 +60,8 @@ def _channel(channel: Channel) -> dict[str, Any]:
         "samples": len(channel),
         "first": iso(channel.time_ns[0]),
         "last": iso(channel.time_ns[-1]),
-        "minimum": float(values.min()) if ordered else None,
-        "maximum": float(values.max()) if ordered else None,
+        "minimum": float(values.min()) + 0.0 if ordered else None,  # no -0.0
+        "maximum": float(values.max()) + 0.0 if ordered else None,
         "origin": channel.origin,
     }
 
@@ -106,9 +107,9 @@ def replay(
                 f"no sample lies there; the log runs {iso(reading.log.start_ns)} to {iso(reading.log.end_ns)}",
             )
     mappings = [] if columns is None else [Path(columns)]
-    check_not_inputs(targets, [*(report.path for report in reading.files), *mappings])
-    inputs = [report.path for report in reading.files if report.kept]
-    log = log.with_metadata(provenance=provenance_json(inputs=[*inputs, *mappings], origin=log.origin))
+    check_not_inputs(targets, [*(report.path for report in reading.files), *reading.inputs, *mappings])
+    inputs = dict.fromkeys([*reading.inputs, *mappings])
+    log = log.with_metadata(provenance=provenance_json(inputs=inputs, origin=log.origin))
     if stage is not None and targets:
         stage("writing")
     write(log, *targets, force=force)
@@ -125,8 +126,8 @@ def _moment(log: Log, option: str, text: str | None) -> int | None:
         return log.start_ns + round(float(text) * 1e9)
     except (ValueError, OverflowError):
         pass
-    moment = pd.to_datetime(text, errors="coerce")
-    if pd.isna(moment):
+    moment = pd.to_datetime(text, errors="coerce", format="ISO8601", utc=True)
+    (time_ns,) = to_ns(pd.Series([moment]).dt.tz_localize(None))
+    if time_ns == NO_TIME:
         raise UsageError(f"{option}: {text!r} is no time; ISO 8601 UTC or seconds since the log's start are allowed")
-    moment = moment.tz_localize("UTC") if moment.tzinfo is None else moment.tz_convert("UTC")
-    return int(moment.as_unit("ns").value)
+    return int(time_ns)

@@ -15,7 +15,8 @@ class FileReport:
 
     format : name of the format, or None where it was not recognised. records : entries of the file (lines, rows or
     messages). kept : those that gave at least one sample. dropped : the others, as (reason, count). warnings : single
-    cells left out, and other remarks. error : why the file, or a part of it, could not be read, or None.
+    cells left out, and other remarks. error : why the file, or a part of it, could not be read, or None. beside :
+    further files that what was kept depends on, such as a Slocum's cache.
     """
 
     path: Path
@@ -25,6 +26,7 @@ class FileReport:
     dropped: tuple[tuple[str, int], ...] = ()
     warnings: tuple[str, ...] = ()
     error: str | None = None
+    beside: tuple[Path, ...] = ()
 
     def document(self) -> dict[str, Any]:
         """The contract's JSON entry; an error stands first among the warnings too."""

@@ -121,7 +121,14 @@ def _in_order(
         if timed[one].since(start_ns) == timed[other].since(start_ns):
             raise InputError(
                 found[other].source,
-                f"its {what} has the same time as that of {found[one].source}, {timed[other].text}; {what}s in time "
-                "must have times that differ",
+                f"its {_numbered(found, other, what)} has the same time as {_numbered(found, one, what)} of "
+                f"{found[one].source}, {timed[other].text}; {what}s in time must have times that differ",
             )
     return tuple(dataclasses.replace(found[i], moment=timed[i]) for i in order)
+
+
+def _numbered(found: Sequence[P], place: int, what: str) -> str:
+    """Which of the profiles of its source it is, and from which depth to which."""
+    profile = found[place]
+    number = sum(other.source == profile.source for other in found[: place + 1])
+    return f"{what} {number} ({profile.depth[0]:.1f} to {profile.depth[-1]:.1f} m)"

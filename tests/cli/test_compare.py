@@ -2,12 +2,15 @@
 
 import csv
 import json
+import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import ROOT
 
 GLIDER = Path(sys.executable).with_name("glider")
 START = np.datetime64("2011-07-20T04:28:00.000", "ms")
@@ -271,3 +274,13 @@ def test_an_input_is_never_replaced(logs) -> None:
     before = logs[1].read_bytes()
     assert "input" in failed(glider(*logs, "-o", logs[1], "--force"), 1)
     assert logs[1].read_bytes() == before
+
+
+def test_what_cannot_be_read_is_no_input(tmp_path: Path) -> None:
+    """A pipe among the files: reading it for its hash would wait for ever."""
+    (tmp_path / "d").mkdir()
+    shutil.copy(ROOT / "logs/seaexplorer-sea035/sea035.12.gli.sub.36", tmp_path / "d")
+    os.mkfifo(tmp_path / "d/pipe")
+    done = glider("d", "d/sea035.12.gli.sub.36", "-o", "e.json", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "d/pipe: is no regular file" in done.stderr

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -61,3 +62,23 @@ def test_what_is_no_log_is_one_line(glider: Run, tmp_path: Path) -> None:
 def test_a_simulated_log_says_so(glider: Run) -> None:
     assert glider("simulate", "south-china-sea-2011", "--duration", "300", "-o", "a.mcap", "--quiet").returncode == 0
     assert glider("info", "a.mcap").stdout.startswith("SIMULATED FROM A RECONSTRUCTION: ")
+
+
+def test_columns_that_are_not_read_are_named(glider: Run, glider_json: Callable[..., Any], tmp_path: Path) -> None:
+    head = "PLD_REALTIMECLOCK;GPCTD_TEMPERATURE;AROD_FT_DO;FLBBCD_CHL_COUNT;"
+    (tmp_path / "a").write_text(f"{head}\n21/07/2019 10:00:00.000;4.0;251.3;9999;\n")
+    assert glider_json("info", "a")["not_read"] == ["AROD_FT_DO"]
+    assert "not read, 1 column with data: AROD_FT_DO" in glider("info", "a").stdout
+    (tmp_path / "b.csv").write_text("elapsed_s,depth_m,oxygen,blank\n0,1,251,\n1,2,251,\n")
+    assert glider_json("info", "b.csv")["not_read"] == ["oxygen"]
+    text = glider("info", ROOT / "tests/data/slocum/comet-2016*").stdout
+    assert "more (--json has them all)" in text.replace("\n  ", " ")
+    assert max(map(len, text.splitlines())) <= 80
+
+
+def test_own_files_in_gzip_say_what_to_do(glider: Run, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("time_utc,depth_m\n2020-01-01T00:00:00Z,1\n")
+    for name, data in (("a.csv.gz", (tmp_path / "a.csv").read_bytes()), ("a.mcap.gz", b"\x89MCAP0\r\n"),
+                       ("a.parquet.gz", b"PAR1"), ("a.nc.gz", b"CDF\x01")):  # fmt: skip
+        (tmp_path / name).write_bytes(gzip.compress(data))
+        one_line_error(glider("info", name), name, "in gzip", "gunzip it first")

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
+import json
+import os
+import pty
 import shutil
 import subprocess
 import sys
+import termios
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from conftest import ROOT, Run, one_line_error
+from conftest import GLIDER, ROOT, Run, one_line_error
 
 LOGS = ROOT / "logs/seaexplorer-sea035"
 
@@ -93,3 +98,38 @@ def test_people_see_files_and_channels(glider: Run) -> None:
         ["seaexplorer", "504", "504"]
     ]
     assert any(line.startswith("pitch_deg ") for line in done.stdout.splitlines())
+
+
+def test_inputs_are_all_that_was_read_and_no_more(glider: Run, tmp_path: Path) -> None:
+    """The cache of a Slocum, the mapping of a table, the .log that tells true heading of a Seaglider's .eng."""
+    slocum = ROOT / "tests/data/slocum/comet-2016-174-05-000.dbd"
+    shutil.copy(ROOT / "tests/data/seaglider/p5610004.eng", tmp_path)
+    shutil.copy(ROOT / "tests/data/seaglider/p5610004.log", tmp_path)
+    (tmp_path / "t.csv").write_text("t,z\n1,5\n2,6\n")
+    (tmp_path / "t.toml").write_text(
+        '[time]\ncolumn = "t"\nformat = "unix"\n[columns]\ndepth = {column = "z", unit = "m"}\n'
+    )
+    wanted = [(slocum, [slocum.name, "11d38bfd.cac"]), ("p5610004.eng", ["p5610004.eng", "p5610004.log"])]
+    wanted.append(("t.csv", ["t.csv", "t.toml"]))
+    for name, files in wanted:
+        assert glider("replay", name, "-o", "o.csv", "--force").returncode == 0
+        told = json.loads((tmp_path / "o.csv-metadata.json").read_text())["metadata"]["provenance"]
+        assert [Path(entry["path"]).name for entry in told["inputs"]] == files
+
+
+def test_notes_are_wrapped_for_a_terminal_alone(glider: Run, tmp_path: Path) -> None:
+    piped = glider("replay", LOGS).stdout
+    assert max(map(len, piped.splitlines())) > 200
+    ours, theirs = pty.openpty()
+    termios.tcsetwinsize(theirs, (40, 80))
+    done = subprocess.Popen([GLIDER, "replay", str(LOGS), "--quiet"], stdout=theirs, stderr=theirs)
+    os.close(theirs)
+    shown = b""
+    with contextlib.suppress(OSError):  # the end of a terminal
+        while piece := os.read(ours, 4096):
+            shown += piece
+    os.close(ours)
+    assert done.wait(60) == 0
+    lines = shown.decode().splitlines()
+    assert max(map(len, lines)) <= 80
+    assert " ".join(" ".join(lines).split()) == " ".join(piped.split())

@@ -70,7 +70,10 @@ def test_casts_without_a_time_or_of_the_same_time_are_refused(glider: Run, tmp_p
         glider("simulate", name, "--ctd", "a.csv", "--ctd", "none.csv"), "none.csv: has no time, and 2 casts"
     )
     one_line_error(
-        glider("simulate", name, "--ctd", "a.csv", "--ctd", "same.csv"), "same time as that of a.csv", "06:00"
+        glider("simulate", name, "--ctd", "a.csv", "--ctd", "same.csv"),
+        "same time as cast 1 (0.0 to 200.0 m)",
+        "of a.csv",
+        "06:00",
     )
     one_line_error(glider("simulate", *HELD, "--ctd", "a.csv", "--ctd", "b*.csv"), "b*.csv: no file matches")
     cast(tmp_path / "b.csv", "2020-05-01T07:00:00Z")

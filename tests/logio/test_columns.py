@@ -336,3 +336,12 @@ def test_lines_may_end_in_cr_alone(tmp_path: Path) -> None:
     )
     (tmp_path / "a.csv").write_bytes(b"t,z\r2020-01-01T00:00:00Z,1\r2020-01-01T00:00:01Z,2\r")
     assert read([tmp_path / "a.csv"]).log["depth"].values.tolist() == [1.0, 2.0]
+
+
+def test_every_phase_can_be_mapped(tmp_path: Path) -> None:
+    phases = ", ".join(f'{phase} = "{phase}"' for phase in PHASES)
+    mapping = MAPPING.replace("[missing]", f'phase = {{ column = "mode", phases = {{ {phases} }} }}\n[missing]')
+    rows = [f"{row},{phase}" for row, phase in zip(ROWS, PHASES, strict=True)]
+    log, report = read_one(table(tmp_path, *rows, head="t,Depth,p,P,mode", mapping=mapping))
+    assert [PHASES[int(v)] for v in log["phase"].values] == list(PHASES)
+    assert report.warnings == ()

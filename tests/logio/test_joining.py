@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import dataclasses
 import gzip
+import json
 import shutil
 from pathlib import Path
 
+import gsw
 import numpy as np
+import pytest
 from conftest import ROOT
 
 from glidercli.log import Channel, Log
-from glidercli.logio import read
+from glidercli.logio import overview, read
 from glidercli.logio.joining import joined
 from glidercli.logio.reader import Part
+from glidercli.logio.reading import Reading
 from glidercli.logio.report import FileReport
 
 LOGS = ROOT / "logs/seaexplorer-sea035"
@@ -114,3 +118,55 @@ def test_a_cut_file_takes_no_whole_one_with_it(tmp_path: Path) -> None:
     raw, sub = read([tmp_path]).files
     assert raw.error is not None
     assert (raw.kept, sub.kept) == (0, 504)
+
+
+def test_closures_of_joined_logs_are_one_list(tmp_path: Path) -> None:
+    """Each file is one of this program's own, with closures in its metadata."""
+    one, other = {"start": "a"}, {"start": "b"}
+    parts = []
+    for number, closures in enumerate(([one], [one, other])):
+        made = part(f"{number}", [10 * number, 10 * number + 5], "depth")
+        parts.append(dataclasses.replace(made, log=made.log.with_metadata(closures=json.dumps(closures))))
+    log, _ = joined(parts)
+    assert json.loads(log.metadata["closures"]) == [one, other]
+
+
+def test_dives_far_apart_in_number_cost_no_memory() -> None:
+    """Numbers come from headers that may hold anything."""
+    log, reports = joined([part("n", [0], "depth")])
+    reading = Reading(log, tuple(reports), ("m.1", "m.5", "m.7", f"m.{10**15}"))
+    assert f"dives 2-4, 6, 8-{10**15 - 1} of m are not among the files" in overview(reading).missing
+
+
+def year_off(folder: Path, year: str) -> None:
+    """Three dives of sea035, the payload's clock in the first of them in another year."""
+    for path in LOGS.glob("*.sub.*"):
+        shutil.copy(path, folder)
+    path = folder / "sea035.12.pld1.sub.36"
+    path.write_bytes(path.read_bytes().replace(b"/2019 ", f"/{year} ".encode()))
+
+
+@pytest.mark.parametrize("year", ["2018", "2020"])
+def test_a_payload_a_year_off_its_navigation_is_told_and_costs_no_other(tmp_path: Path, year: str) -> None:
+    year_off(tmp_path, year)
+    reading = read([tmp_path])
+    assert [report.kept for report in reading.files] == [report.kept for report in read([LOGS]).files]
+    told = [w for report in reading.files for w in report.warnings if "shares no time with" in w]
+    assert len(told) == 1
+    assert "2019-07-21T23:24:49Z to 2019-07-21T" in told[0]
+    assert f"{year}-07-21T23:" in told[0]
+    assert "of the same dive" in told[0]
+
+
+def test_density_takes_no_position_from_another_year(tmp_path: Path) -> None:
+    year_off(tmp_path, "2018")
+    log = read([tmp_path]).log
+    times, (s, t, p, density) = log.together("salinity", "temperature", "pressure", "density")
+    off = times < log["depth"].time_ns[0] - 100 * 86400 * SECOND
+    assert 0 < off.sum() < 30
+    wanted = gsw.rho_t_exact(gsw.SR_from_SP(s[off]), t[off], np.maximum(p[off] / 1e4, 0.0))
+    np.testing.assert_allclose(density[off], wanted, rtol=1e-14)  # the same formula; rounding alone
+    placed = gsw.SA_from_SP(s[~off], p[~off] / 1e4, -130.6, 48.9)
+    wanted = gsw.rho_t_exact(placed, t[~off], p[~off] / 1e4)
+    np.testing.assert_allclose(density[~off], wanted, atol=1e-4)  # the positions of the fixes vary by 0.1 deg at most
+    assert f"reference salinity for {int(off.sum())} samples" in log.metadata["density_note"]

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from conftest import ROOT, Run
 
-from glidercli.errors import InputError, OutputError
+from glidercli.errors import InputError, OutputError, UsageError
 from glidercli.log import Channel, Event, Log
-from glidercli.logio import read, write
+from glidercli.logio import read, replay, write
 
 LOGS = ROOT / "logs/seaexplorer-sea035"
 
@@ -133,3 +133,30 @@ def test_names_cannot_write_to_the_terminal(glider: Run, tmp_path: Path) -> None
         assert done.returncode == 0
         assert "\x1b" not in done.stdout + done.stderr
         assert r"a\x1b[31mred\nline" in done.stdout
+
+
+def test_files_stand_in_the_order_of_their_numbers(tmp_path: Path) -> None:
+    for number in (100, 1000, 99, 101, 1001):
+        shutil.copy(LOGS / "sea035.12.gli.sub.37", tmp_path / f"sea035.12.gli.sub.{number}")
+    for given in (tmp_path, str(tmp_path / "*.sub.*")):
+        assert [report.path.suffix for report in read([given]).files] == [".99", ".100", ".101", ".1000", ".1001"]
+
+
+def test_a_glob_that_only_folders_match_is_one_line(tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(InputError, match="no file matches"):
+        read([str(tmp_path / "fold*")])
+
+
+@pytest.mark.parametrize("text", ["9999-01-01", "1500-01-01T00:00:00Z", "07/08/2019", "nan"])
+def test_a_moment_is_iso_8601_within_what_can_be_told(text: str) -> None:
+    with pytest.raises(UsageError, match="ISO 8601"):
+        replay([LOGS], start=text)
+
+
+def test_tables_with_times_of_another_age_are_named(tmp_path: Path) -> None:
+    import pandas as pd
+
+    pd.DataFrame({"time_utc": ["2604-02-06T09:40:00Z"], "depth_m": [1.0]}).to_parquet(tmp_path / "a.parquet")
+    with pytest.raises(InputError, match="row 1: the time cannot be read"):
+        read([tmp_path / "a.parquet"])

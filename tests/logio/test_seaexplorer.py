@@ -240,3 +240,34 @@ def test_bytes_that_are_no_text_make_no_extra_records(tmp_path: Path) -> None:
     path.write_bytes(path.read_bytes() + b"\x85\x0b\x0c\x1c;\x85\n")
     _, report = read_one(path)
     assert (report.records, report.kept, report.dropped) == (7, 6, (("wrong number of fields", 1),))
+
+
+def test_files_put_one_behind_the_other_are_read_on(tmp_path: Path) -> None:
+    _, report = read_one(write(tmp_path, *GOOD[:3], HEAD, *GOOD[3:], HEAD.replace(";", "; "), HEAD[:-1]))
+    assert (report.records, report.kept, report.error) == (9, 6, None)
+    assert report.dropped == (("repeated header", 3),)
+    _, report = read_one(write(tmp_path, *GOOD, HEAD, *GOOD))
+    assert (report.records, report.kept) == (13, 6)
+    assert report.dropped == (("repeated header", 1), ("time goes back", 5), ("time repeats", 1))
+
+
+def test_a_header_with_other_columns_ends_the_reading(tmp_path: Path) -> None:
+    """Were the lines behind it read by the first header, roll would stand in pitch."""
+    swapped = HEAD.replace("Pitch;Roll", "Roll;Pitch")
+    log, report = read_one(write(tmp_path, *GOOD[:3], "", swapped, *GOOD[3:]))
+    assert (report.records, report.kept, len(log["pitch"])) == (7, 3, 3)
+    assert report.dropped == (("behind a header with other columns", 4),)
+    assert report.error == "line 6: a header with other columns; only what stands before it was read"
+
+
+def test_a_column_that_is_named_twice_is_told(tmp_path: Path) -> None:
+    head = HEAD.replace("Roll", "Pitch")
+    with pytest.raises(InputError, match="line 1: column Pitch stands there twice; each may once"):
+        read([write(tmp_path, *GOOD, head=head)])
+
+
+def test_a_year_that_no_clock_can_hold_is_no_time(tmp_path: Path) -> None:
+    """In 64 bits of ns the beginning of 2604 stands where July 2019 does."""
+    row = GOOD[5].replace("21/07/2019 10:05:00", "06/02/2604 09:40:00")
+    _, report = read_one(write(tmp_path, *GOOD[:5], row))
+    assert report.dropped == (("time cannot be read", 1),)

@@ -8,6 +8,7 @@ Where no drift is known that current is taken to act at the surface, too.
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any, NamedTuple
 
@@ -16,7 +17,7 @@ from numpy.typing import NDArray
 
 from glidercli.logio.derived.motion import AFLOAT
 
-__all__ = ["Closure", "Fixes", "close"]
+__all__ = ["Closure", "Fixes", "close", "closures_in"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -95,6 +96,15 @@ class Closure(NamedTuple):
             "current_east_m_s": self.current_east,
             **drifts,
         }
+
+
+def closures_in(text: str) -> list[Any]:
+    """The closures that the metadata of a log tell; none where the text is no list of them."""
+    try:
+        found = json.loads(text)
+    except ValueError:
+        return []
+    return found if isinstance(found, list) else []
 
 
 def close(fixes: Fixes, times: Times, z: Array, north: Array, east: Array) -> tuple[Times, Array, Array, list[Closure]]:

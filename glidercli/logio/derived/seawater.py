@@ -14,6 +14,10 @@ Array = NDArray[np.float64]
 Times = NDArray[np.int64]
 
 
+FARTHEST = 30 * 86400 * 10**9
+"""ns from the nearest fix, beyond which no position is taken: of a clock that is a year off none is known."""
+
+
 def with_seawater(log: Log) -> Log:
     """The log with salinity and density where it lacks them and has what they follow from."""
     notes = {}
@@ -55,9 +59,21 @@ def _density(log: Log, times: Times, s: Array, t: Array, p: Array) -> tuple[Arra
 
     p_dbar = np.maximum(p / DBAR, 0.0)
     if "longitude" in log and "latitude" in log:
+        fixed, latitudes = log["latitude"].time_ns, log["latitude"].values
         longitude = np.interp(times, log["longitude"].time_ns, np.unwrap(log["longitude"].values, period=360.0))
-        latitude = np.interp(times, log["latitude"].time_ns, log["latitude"].values)
-        absolute = gsw.SA_from_SP(s, p_dbar, np.mod(longitude, 360.0), latitude)
-        return gsw.rho_t_exact(absolute, t, p_dbar), "absolute salinity at positions between the fixes"
+        latitude = np.interp(times, fixed, latitudes)
+        far = _distance(times, fixed) > FARTHEST
+        absolute = np.where(far, gsw.SR_from_SP(s), gsw.SA_from_SP(s, p_dbar, np.mod(longitude, 360.0), latitude))
+        place = "absolute salinity at positions between the fixes"
+        if far.any():
+            place += f", reference salinity for {int(far.sum())} samples more than 30 days from any fix"
+        return gsw.rho_t_exact(absolute, t, p_dbar), place
     # no place is known, and none is made up
     return gsw.rho_t_exact(gsw.SR_from_SP(s), t, p_dbar), "reference salinity, no position is known"
+
+
+def _distance(times: Times, fixed: Times) -> Times:
+    """From each time to the nearest of others, increasing, ns."""
+    after = np.clip(np.searchsorted(fixed, times), 1, max(len(fixed) - 1, 1))
+    nearest = np.minimum(after, len(fixed) - 1)
+    return np.asarray(np.minimum(np.abs(times - fixed[after - 1]), np.abs(times - fixed[nearest])))

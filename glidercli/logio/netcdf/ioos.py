@@ -22,7 +22,7 @@ from glidercli.errors import InputError
 from glidercli.log import Event
 from glidercli.logio.netcdf.pyglider import is_pyglider, read_with_attitude
 from glidercli.logio.netcdf.times import times_of
-from glidercli.logio.netcdf.trajectory import Positions, Rows, part_of
+from glidercli.logio.netcdf.trajectory import Positions, Rows, part_of, unread_in
 from glidercli.logio.netcdf.variables import attributes, flags_of, text_of, values_of
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import NO_TIME
@@ -69,7 +69,8 @@ def read_ioos(path: Path, aids: Aids = Aids()) -> Part:
         found = read_with_attitude(file, DIMENSION, NAMES, metadata, warnings)
         time_ns = times_of(path, file[DIMENSION])
         positions = _positions(file, time_ns, count, warnings)
-        rows = Rows(time_ns, found, positions, metadata, warnings, _current(path, file))
+        unread = unread_in(file, DIMENSION, found)
+        rows = Rows(time_ns, found, positions, metadata, warnings, _current(path, file), unread)
         profile = _profile(file)
     trajectory = metadata.get("trajectory", "")
     return part_of(path, "ioos", rows, (f"ioos.{trajectory}.{profile}",) if trajectory and profile else ())

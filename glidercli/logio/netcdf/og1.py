@@ -23,7 +23,7 @@ from glidercli.channels import PHASES
 from glidercli.errors import InputError
 from glidercli.logio.netcdf.pyglider import read_with_attitude
 from glidercli.logio.netcdf.times import times_of
-from glidercli.logio.netcdf.trajectory import Positions, Rows, part_of
+from glidercli.logio.netcdf.trajectory import Positions, Rows, part_of, unread_in
 from glidercli.logio.netcdf.variables import Values, attributes, text_of, values_of
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import NO_TIME
@@ -70,7 +70,9 @@ def read_og1(path: Path, aids: Aids = Aids()) -> Part:
         if "PHASE" in file.variables and file["PHASE"].dimensions == (DIMENSION,):
             found["phase"] = _phase(file, warnings)
         _tell_of_positions(file, count, warnings)
-        rows = Rows(times_of(path, file["TIME"]), found, _positions(path, file, warnings), metadata, warnings)
+        positions = _positions(path, file, warnings)
+        unread = unread_in(file, DIMENSION, found)
+        rows = Rows(times_of(path, file["TIME"]), found, positions, metadata, warnings, unread=unread)
         trajectory = text_of(file, "TRAJECTORY")
     return part_of(path, "og1", rows, (f"og1.{trajectory}",) if trajectory else ())
 

@@ -20,7 +20,7 @@ from glidercli.logio.reader import Part
 from glidercli.logio.records import sampled, usable
 from glidercli.logio.report import FileReport
 
-__all__ = ["Positions", "Rows", "found_in", "part_of"]
+__all__ = ["Positions", "Rows", "found_in", "part_of", "unread_in"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -55,6 +55,7 @@ class Rows:
     metadata: Mapping[str, str]
     warnings: list[str]
     events: tuple[Event, ...] = ()
+    unread: tuple[str, ...] = ()
 
 
 def found_in(
@@ -68,11 +69,7 @@ def found_in(
 
     names : variable names by channel, the first that is there is taken. standard : channel by standard name.
     """
-    along = {
-        name: attributes(v)
-        for name, v in file.variables.items()
-        if v.dimensions == (dimension,) and v.dtype != str and v.dtype.kind in "iuf"
-    }
+    along = _along(file, dimension)
     chosen = {channel: next((n for n in known if n in along), None) for channel, known in names.items()}
     for name, told in along.items():
         channel = standard.get(str(told.get("standard_name", "")))
@@ -84,10 +81,37 @@ def found_in(
         if values is not None:
             found[channel] = values
     known = {*chosen.values(), *TOLD_OF}
-    other = [name for name in along if name not in known and not name.lower().endswith(("_qc", "_flag"))]
+    other = [name for name in along if name not in known and not _is_flag(name)]
     if other:
         warnings.append(f"variables not known and not used: {', '.join(other)}")
     return found
+
+
+def unread_in(file: Any, dimension: str, found: Mapping[str, Values]) -> tuple[str, ...]:
+    """The variables along a dimension that hold a number and that no channel is taken from."""
+    used = {*TOLD_OF, *(values.name for values in found.values())}
+    left = {name: told for name, told in _along(file, dimension).items() if name not in used and not _is_flag(name)}
+    return tuple(name for name, told in left.items() if _holds_number(file[name][...], told))
+
+
+def _along(file: Any, dimension: str) -> dict[str, dict[str, Any]]:
+    """The attributes of the variables of numbers along a dimension, by name."""
+    return {
+        name: attributes(v)
+        for name, v in file.variables.items()
+        if v.dimensions == (dimension,) and v.dtype != str and v.dtype.kind in "iuf"
+    }
+
+
+def _is_flag(name: str) -> bool:
+    return name.lower().endswith(("_qc", "_flag"))
+
+
+def _holds_number(stored: NDArray[Any], told: Mapping[str, Any]) -> bool:
+    missing = np.isnan(stored)
+    for key in ("_FillValue", "missing_value"):
+        missing |= np.isin(stored, np.atleast_1d(told.get(key, np.nan)))
+    return not missing.all()
 
 
 def part_of(path: Path, format: str, rows: Rows, holds: tuple[str, ...] = ()) -> Part:
@@ -113,9 +137,7 @@ def part_of(path: Path, format: str, rows: Rows, holds: tuple[str, ...] = ()) ->
         if len(made):
             channels[channel] = made
     if {"conductivity", "pressure"} <= channels.keys():
-        origin = channels["conductivity"].origin
-        wet = submerged(channels["conductivity"], channels["pressure"], warnings)
-        channels["conductivity"] = Channel("conductivity", wet.time_ns, wet.values, origin)
+        channels["conductivity"] = submerged(channels["conductivity"], channels["pressure"], warnings)
     if "conductivity" in rows.found:
         channels |= {name: _based(channels[name], channels, warnings) for name in COMPUTED if name in channels}
     kept[good] = sampled(rows.time_ns[good], channels)
@@ -131,7 +153,7 @@ def part_of(path: Path, format: str, rows: Rows, holds: tuple[str, ...] = ()) ->
     log = Log({n: c for n, c in channels.items() if len(c)}, "measured", dict(rows.metadata), rows.events)
     reasons = tuple(sorted((reason, count) for reason, count in dropped.items() if count))
     report = FileReport(path, format, len(rows.time_ns), int(kept.sum()), reasons, tuple(warnings))
-    return Part(log, report, np.sort(record_ns[kept]), holds=holds, fullness=int(kept.sum()))
+    return Part(log, report, np.sort(record_ns[kept]), holds=holds, fullness=int(kept.sum()), unread=rows.unread)
 
 
 def _based(computed: Channel, channels: Mapping[str, Channel], warnings: list[str]) -> Channel:

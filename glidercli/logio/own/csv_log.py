@@ -17,6 +17,7 @@ from glidercli.log import Log
 from glidercli.logio.own.csv_metadata import origin_word, read_metadata, stranger
 from glidercli.logio.own.table_back import log_of, part_of, without_impossible
 from glidercli.logio.reader import Aids, Part
+from glidercli.logio.records import YEARS, to_ns
 from glidercli.origins import BOTH, column_name, origins
 from glidercli.provenance import file_hash
 
@@ -24,8 +25,6 @@ __all__ = ["CsvTable", "is_csv", "read_csv"]
 
 _EPOCH = "2000-01-01T00:00:00"
 """Start of a table that has elapsed_s alone; the same arbitrary date as for a flight without one."""
-_YEARS = ("1700-01-01", "2200-01-01")
-"""Times allowed: nanoseconds in 64 bits hold little more."""
 
 
 class CsvTable:
@@ -95,6 +94,7 @@ def read_csv(path: Path, aids: Aids = Aids()) -> Part:
             table[name] = _phases(path, text[name]) if spec.name == "phase" else _numbers(path, name, text[name])
     metadata = read_metadata(path)
     warnings = [f"columns not known and not used: {', '.join(unknown)}"] if unknown else []
+    unread = [name for name in unknown if text[name].str.strip().any()]
     word = _origin_of_rows(path, text, warnings)
     beside = metadata_path(path).name
     if metadata:
@@ -109,7 +109,7 @@ def read_csv(path: Path, aids: Aids = Aids()) -> Part:
     without_impossible(table, metadata, word, warnings)
     log = log_of(table, metadata, word, "time_utc" in text, warnings)
     log = Log({c.name: c for c in log.channels.values() if len(c)}, log.origin, log.metadata, log.events)
-    return part_of(path, "glider-csv", log, table, {"wrong number of fields": cut}, warnings)
+    return part_of(path, "glider-csv", log, table, {"wrong number of fields": cut}, warnings, unread)
 
 
 def _check_same(path: Path, table: Any, metadata: dict[str, Any], dated: bool) -> None:
@@ -164,10 +164,10 @@ def _times(path: Path, text: Any) -> Any:
 
     if "time_utc" in text:
         parsed = pd.to_datetime(text["time_utc"], utc=True, errors="coerce", format="ISO8601").dt.tz_localize(None)
-        told = parsed.between(pd.Timestamp(_YEARS[0]), pd.Timestamp(_YEARS[1])).to_numpy()
-        times = parsed.where(told).to_numpy().astype("datetime64[ns]")
+        times = to_ns(parsed).astype("datetime64[ns]")
+        told = ~np.isnat(times)
     else:
-        epoch, first, last = (np.datetime64(moment, "s") for moment in (_EPOCH, *_YEARS))
+        epoch, first, last = (np.datetime64(moment, "s") for moment in (_EPOCH, *YEARS))
         elapsed = pd.to_numeric(text["elapsed_s"], errors="coerce").to_numpy(dtype=float)
         low, high = ((moment - epoch).astype(float) for moment in (first, last))
         told = (elapsed >= low) & (elapsed <= high)

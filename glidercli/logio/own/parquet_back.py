@@ -16,6 +16,7 @@ from glidercli.logio.own.csv_metadata import parsed_metadata
 from glidercli.logio.own.parquet_log import METADATA_KEY
 from glidercli.logio.own.table_back import log_of, part_of, without_impossible
 from glidercli.logio.reader import Aids, Part
+from glidercli.logio.records import to_ns
 from glidercli.origins import BOTH, column_name, origins
 
 __all__ = ["DAMAGED", "is_own_parquet", "is_parquet", "opened", "read_own_parquet"]
@@ -82,10 +83,10 @@ def read_own_parquet(path: Path, aids: Aids = Aids()) -> Part:
     log = log_of(table, metadata, word, "time_utc" in columns, warnings)
     if not metadata:
         sampled = {name: channel for name, channel in log.channels.items() if len(channel)}
-        return part_of(path, "glider-parquet", Log(sampled, log.origin, log.metadata), table, {}, warnings)
+        return part_of(path, "glider-parquet", Log(sampled, log.origin, log.metadata), table, {}, warnings, unknown)
     channels = {name: _with_origin(c, of_fields[CHANNELS[name].column]) for name, c in log.channels.items()}
     log = Log(channels, log.origin, log.metadata, log.events)
-    return part_of(path, "glider-parquet", log, table, {}, warnings)
+    return part_of(path, "glider-parquet", log, table, {}, warnings, unknown)
 
 
 def _with_origin(channel: Channel, told: str) -> Channel:
@@ -173,7 +174,7 @@ def _times(path: Path, columns: dict[str, Any]) -> Any:
         else:
             texts = pd.Series(column.cast(pa.string()).to_pylist(), dtype=object)
             parsed = pd.to_datetime(texts, utc=True, errors="coerce", format="ISO8601").dt.tz_localize(None)
-            times = parsed.to_numpy().astype("datetime64[ns]")
+            times = to_ns(parsed).astype("datetime64[ns]")
     except (pa.ArrowException, ValueError, OverflowError):
         raise InputError(path, f"its times are a column of {column.type}; timestamps or seconds are needed") from None
     bad = np.flatnonzero(np.isnat(times))

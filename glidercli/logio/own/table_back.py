@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast
 
@@ -66,14 +66,23 @@ def without_impossible(table: Any, metadata: Mapping[str, Any], word: str | None
             table.loc[outside, name] = np.nan
 
 
-def part_of(path: Path, format: str, log: Log, table: Any, dropped: Mapping[str, int], warnings: list[str]) -> Part:
+def part_of(
+    path: Path,
+    format: str,
+    log: Log,
+    table: Any,
+    dropped: Mapping[str, int],
+    warnings: list[str],
+    unread: Sequence[str] = (),
+) -> Part:
     """The Log of a table with its account: a record is a row; one without any value is dropped.
 
-    dropped : rows that are not in the table, by reason.
+    dropped : rows that are not in the table, by reason. unread : columns that are not known.
     """
     kept = table.drop(columns="time_utc").notna().any(axis=1).to_numpy()
     every = {"no value": int((~kept).sum()), **dropped}
     reasons = tuple((reason, count) for reason, count in every.items() if count)
     records = len(table) + sum(dropped.values())
     report = FileReport(path, format, records, int(kept.sum()), reasons, tuple(warnings))
-    return Part(log, report, table["time_utc"].to_numpy().astype("datetime64[ns]").astype(np.int64)[kept])
+    time_ns = table["time_utc"].to_numpy().astype("datetime64[ns]").astype(np.int64)
+    return Part(log, report, time_ns[kept], unread=tuple(unread))

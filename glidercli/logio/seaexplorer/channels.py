@@ -30,7 +30,7 @@ from glidercli.log import Channel
 from glidercli.logio.quantities import Quantity, channels_from, degrees, without_sentinels
 from glidercli.units import CM3, DBAR, DEGREE, MILLIMETRE
 
-__all__ = ["NOTES", "SENTINELS", "channels_of"]
+__all__ = ["NOTES", "SENTINELS", "USED", "channels_of"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -54,6 +54,8 @@ COLUMNS = {
     "LEGATO_CONDUCTIVITY": Quantity("conductivity", 0.1, 0.0, 75.0, "mS/cm"),
     "LEGATO_PRESSURE": Quantity("pressure", DBAR, -2.0, 1500.0, "dbar"),
 }
+USED = (*COLUMNS, "NavState", "Lat", "Lon")
+"""Columns that channels are taken from."""
 NOTES = {
     "mass_position_zero": "the actuator's own zero (LinPos), not the model's",
     "mass_rotation_note": "mass_rotation = -AngPos: recorded roll follows AngPos, the model's rotation opposes it",
@@ -73,11 +75,7 @@ def channels_of(time_ns: Times, table: Mapping[str, Array]) -> tuple[list[Channe
     time_ns : (n,) UTC ns, strictly increasing. table : cells as recorded, (n,) each, by column name.
     """
     warnings: list[str] = []
-    used = {
-        name: without_sentinels(name, table[name], SENTINELS, warnings)
-        for name in (*COLUMNS, "NavState", "Lat", "Lon")
-        if name in table
-    }
+    used = {name: without_sentinels(name, table[name], SENTINELS, warnings) for name in USED if name in table}
     _without_zeros(used, warnings)
     channels = list(channels_from(time_ns, used, COLUMNS, warnings).values())
     if "NavState" in used:

@@ -2,7 +2,8 @@
 
 One line is one record. A record is dropped, and counted by its reason, when it cannot be used as a whole: cut lines,
 times that cannot be read, repeat, go back or come from a clock that was not set, lines without a value. Single cells
-that cannot be used are counted in warnings (seaexplorer_channels.py, where units and signs stand too).
+that cannot be used are counted in warnings (channels.py, where units and signs stand too). Where files were put one
+behind the other the header stands there again: it is dropped by name, and one with other columns ends the reading.
 """
 
 from __future__ import annotations
@@ -18,9 +19,9 @@ from glidercli.errors import InputError
 from glidercli.gzipped import beginning, unpacked
 from glidercli.log import Log
 from glidercli.logio.reader import Aids, Part
-from glidercli.logio.records import usable
+from glidercli.logio.records import sampled, to_ns, usable
 from glidercli.logio.report import FileReport
-from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, channels_of
+from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, USED, channels_of
 
 __all__ = ["is_seaexplorer", "read_seaexplorer"]
 
@@ -53,37 +54,26 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
     data, whole = unpacked(path, path.read_bytes())
     text = data.decode("latin-1")
     lines = text.lstrip("\ufeff\xef\xbb\xbf ").split("\n")
-    names = [name.strip() for name in lines[0].split(";")]
-    if len(names) > MOST_COLUMNS:
-        raise InputError(path, f"line 1: names {len(names)} columns; at most {MOST_COLUMNS} are allowed")
+    names = _names(path, lines[0])
     dropped: Counter[str] = Counter()
-    rows: list[list[str]] = []
-    records = 0
-    for line in lines[1:]:
-        if not line.strip():
-            continue
-        records += 1
-        cells = [cell.strip() for cell in line.split(";")]
-        if len(cells) == len(names) + 1 and names[-1] and not cells[-1]:
-            cells.pop()  # lines may end in a semicolon where the header does not; a cut line lacks what the header has
-        if len(cells) != len(names):
-            dropped["wrong number of fields"] += 1
-        else:
-            rows.append(cells)
+    rows, foreign = _rows(lines, names, dropped)
+    records = len(rows) + dropped.total()
     time_ns = _times([row[0] for row in rows])
     table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if i > 0 and name}
     known = {name: np.where(np.isin(values, SENTINELS), np.nan, values) for name, values in table.items()}
     good = usable(time_ns, known, dropped)
+    unread = tuple(name for name, values in known.items() if name not in USED and not np.isnan(values[good]).all())
     table = {name: values[good] for name, values in table.items()}
     channels, warnings = channels_of(time_ns[good], table)
     named = NAME.match(path.name)
     whose = {"platform": f"SeaExplorer {named[1]}"} if named else {}
     whose["title"] = f"{whose.get('platform', 'SeaExplorer')} log"
     log = Log({channel.name: channel for channel in channels if len(channel)}, "measured", whose | NOTES)
-    kept = np.isin(time_ns[good], np.concatenate([c.time_ns for c in channels] or [time_ns[:0]]))
+    kept = sampled(time_ns[good], log.channels)
     if not kept.all():
         dropped["no usable value"] += int((~kept).sum())
-    error = None if whole else "gzip data cut short or damaged: only what could be unpacked was read"
+    damaged = "" if whole else "gzip data cut short or damaged: only what could be unpacked was read"
+    error = "; ".join(fault for fault in (damaged, foreign) if fault) or None
     report = FileReport(
         path, "seaexplorer", records, int(kept.sum()), tuple(sorted(dropped.items())), tuple(warnings), error
     )
@@ -96,7 +86,45 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
         holds=(f"{recording['mission']}.{recording['unit']}.{recording['dive']}".lower(),) if recording else (),
         fullness=int(recording is not None and recording["kind"].lower() == "raw"),
         partner=_partner(recording),
+        unread=unread,
     )
+
+
+def _names(path: Path, header: str) -> list[str]:
+    """The columns of a header; the last is "" where it ends in a semicolon."""
+    names = [name.strip() for name in header.split(";")]
+    if len(names) > MOST_COLUMNS:
+        raise InputError(path, f"line 1: names {len(names)} columns; at most {MOST_COLUMNS} are allowed")
+    twice = [name for name, count in Counter(names).items() if name and count > 1]
+    if twice:
+        raise InputError(path, f"line 1: column {twice[0]} stands there twice; each may once")
+    return names
+
+
+def _rows(lines: list[str], names: list[str], dropped: Counter[str]) -> tuple[list[list[str]], str]:
+    """The cells of each line that has as many as the header, and what is wrong where another header stands, or "".
+
+    The other lines are counted in ``dropped``; so is all from a header with other columns on.
+    """
+    rows: list[list[str]] = []
+    for number, line in enumerate(lines[1:], 2):
+        if not line.strip():
+            continue
+        cells = [cell.strip() for cell in line.split(";")]
+        if cells[0] in (NAVIGATION, PAYLOAD):
+            if [cell for cell in cells if cell] != [name for name in names if name]:
+                left = sum(bool(other.strip()) for other in lines[number - 1 :])
+                dropped["behind a header with other columns"] += left
+                return rows, f"line {number}: a header with other columns; only what stands before it was read"
+            dropped["repeated header"] += 1
+            continue
+        if len(cells) == len(names) + 1 and names[-1] and not cells[-1]:
+            cells.pop()  # lines may end in a semicolon where the header does not; a cut line lacks what the header has
+        if len(cells) != len(names):
+            dropped["wrong number of fields"] += 1
+        else:
+            rows.append(cells)
+    return rows, ""
 
 
 def _partner(recording: re.Match[str] | None) -> str:
@@ -108,12 +136,12 @@ def _partner(recording: re.Match[str] | None) -> str:
 
 
 def _times(texts: list[str]) -> Times:
-    """Times in UTC ns; the smallest integer where a text is no time."""
+    """Times in UTC ns; NO_TIME where a text is no time."""
     import pandas as pd
 
     parsed = pd.to_datetime(pd.Series(texts, dtype=object), format="%d/%m/%Y %H:%M:%S.%f", errors="coerce")
     whole = pd.to_datetime(pd.Series(texts, dtype=object), format="%d/%m/%Y %H:%M:%S", errors="coerce")
-    return parsed.fillna(whole).to_numpy().astype("datetime64[ns]").astype(np.int64)
+    return to_ns(parsed.fillna(whole))
 
 
 def _numbers(texts: list[str]) -> Array:

@@ -38,12 +38,16 @@ def read_eng(path: Path, data: bytes) -> Part:
     rows = [row for row in split if len(row) == len(names)]
     gathering.records += len(split) - len(rows)
     gathering.drop("", "wrong number of fields", len(split) - len(rows))
-    table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if name in (TIME, *COLUMNS)}
+    used = (TIME, *COLUMNS)
+    table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if name in used}
+    gathering.unread += [
+        name for i, name in enumerate(names) if name not in used and any(row[i].lower() != "nan" for row in rows)
+    ]
     time_ns = since(text.start_ns, table.pop(TIME))
     table = cells({name: name for name in table}, table, gathering.warnings)
     good = gathering.usable("", time_ns, table)
     time_ns, table = time_ns[good], {name: values[good] for name, values in table.items()}
-    declination, log = _beside(path, text.dive, gathering.warnings)
+    declination, log = _beside(path, text.dive, gathering)
     channels = engineering(time_ns, table, {name: name for name in table}, declination, gathering.warnings)
     channels = clear_of_motors(channels, log.events if log else (), gathering.warnings)
     if "depth" in table:
@@ -59,12 +63,14 @@ def read_eng(path: Path, data: bytes) -> Part:
     return gathering.part(path, text.dive, ("eng",))
 
 
-def _beside(path: Path, dive: Dive, warnings: list[str]) -> tuple[float | None, Log | None]:
+def _beside(path: Path, dive: Dive, gathering: Gathering) -> tuple[float | None, Log | None]:
     """Magnetic variation, deg, or None, and the .log of this dive that stands beside under the same name, or None."""
     stem = Path(path.name.removesuffix(".gz")).stem
     beside = next((file for ending in BESIDE if (file := path.with_name(stem + ending)).is_file()), None)
     if beside is None:
-        warnings.append(f"no {stem}.log beside it, which tells the magnetic variation, the states and the motor runs")
+        gathering.warnings.append(
+            f"no {stem}.log beside it, which tells the magnetic variation, the states and the motor runs"
+        )
         return None, None
     try:
         data, _ = unpacked(beside, beside.read_bytes())
@@ -73,9 +79,11 @@ def _beside(path: Path, dive: Dive, warnings: list[str]) -> tuple[float | None, 
         text = read_text(beside, data)
         if text.dive != dive:
             raise InputError(beside, f"is of {text.dive.name or 'an unknown dive'}, this is {dive.name or 'unknown'}")
-        return declination_of(text.lines), read_log(beside, data).log
+        log = read_log(beside, data).log
+        gathering.beside.append(beside)
+        return declination_of(text.lines), log
     except (OSError, InputError) as error:
-        warnings.append(f"{beside.name} beside it is not used: it {str(error).removeprefix(f'{beside}: ')}")
+        gathering.warnings.append(f"{beside.name} beside it is not used: it {str(error).removeprefix(f'{beside}: ')}")
         return None, None
 
 

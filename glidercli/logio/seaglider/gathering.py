@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from glidercli.log import Channel, Event, Log
 from glidercli.logio.reader import Part
-from glidercli.logio.records import NO_TIME, STRAY, usable
+from glidercli.logio.records import NO_TIME, STRAY, sampled, usable
 from glidercli.logio.report import FileReport
 from glidercli.logio.seaglider.columns import NOTES
 
@@ -68,6 +68,8 @@ class Gathering:
     events: list[Event] = dataclasses.field(default_factory=list)
     metadata: dict[str, str] = dataclasses.field(default_factory=dict)
     kept_ns: list[Times] = dataclasses.field(default_factory=list)
+    unread: list[str] = dataclasses.field(default_factory=list)
+    beside: list[Path] = dataclasses.field(default_factory=list)
 
     def drop(self, kind: str, reason: str, count: int) -> None:
         """Count records of a kind as dropped."""
@@ -100,8 +102,7 @@ class Gathering:
     def keep_rows(self, kind: str, time_ns: Times, channels: list[Channel]) -> None:
         """Take the channels of rows that share their times, and count the rows."""
         given = [channel for channel in channels if len(channel)]
-        sampled = np.concatenate([channel.time_ns for channel in given] or [time_ns[:0]])
-        self.keep(kind, time_ns, np.isin(time_ns, sampled))
+        self.keep(kind, time_ns, sampled(time_ns, {channel.name: channel for channel in given}))
         self.channels += given
 
     def part(self, path: Path, dive: Dive, holds: tuple[str, ...], **more: object) -> Part:
@@ -115,6 +116,7 @@ class Gathering:
             tuple(sorted(self.dropped.items())),
             tuple(self.warnings),
             more.pop("error", None),  # type: ignore[arg-type]
+            tuple(self.beside),
         )
         channels = {name: _merged(name, self.channels) for name in dict.fromkeys(c.name for c in self.channels)}
         events = tuple(sorted(self.events, key=lambda event: event.time_ns))
@@ -122,7 +124,10 @@ class Gathering:
         recordings = tuple(f"{dive.name}.{ending}" for ending in holds) if dive.name else ()
         beside = {"eng": "log", "log": "eng"}.get(holds[0]) if len(holds) == 1 else None
         partner = f"{dive.name}.{beside}" if beside and dive.name else ""
-        return Part(log, report, record_ns, dive.name, recordings, partner=partner, **more)  # type: ignore[arg-type]
+        return Part(
+            log, report, record_ns, dive.name, recordings, partner=partner, unread=tuple(self.unread),
+            **more,  # type: ignore[arg-type]
+        )  # fmt: skip
 
 
 def _merged(name: str, channels: list[Channel]) -> Channel:

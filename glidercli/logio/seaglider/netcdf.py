@@ -61,6 +61,7 @@ def read_nc(path: Path, data: bytes) -> Part:
             gathering.events += surface_pump(file.fields("log_SM_CCo"), start_ns)
         _take_fixes(file, gathering)
         take_adcp(file, gathering)
+        gathering.unread += file.unread({file.dimension(time) for time in TIMES} - {""})
         dive = Dive(*(_whole(file, *names) for names in (("glider", "log_glider"), ("mission", "log_mission"),
                                                          ("dive_number", "log_dive"))))  # fmt: skip
     finally:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
@@ -38,7 +39,7 @@ class NetcdfFile:
         """Open the bytes of a file. Raises InputError where they cannot be opened."""
         import netCDF4
 
-        self.path, self.damaged = path, list[str]()
+        self.path, self.damaged, self._read = path, list[str](), set[str]()
         try:
             if data.startswith(CLASSIC):
                 check_classic(data)
@@ -68,6 +69,11 @@ class NetcdfFile:
         fill = getattr(self._file.variables[name], "_FillValue", np.nan)
         values[(raw == fill) | (np.abs(values) > 9e36)] = np.nan  # the library's own fill value is 9.97e36
         return values
+
+    def unread(self, dimensions: Collection[str]) -> list[str]:
+        """The variables along one of these dimensions that were not asked for and hold a number."""
+        left = [name for name in self._file.variables if name not in self._read and not name.endswith("_qc")]
+        return [name for name in left if self.dimension(name) in dimensions and not np.isnan(self.array(name)).all()]
 
     def number(self, name: str) -> float | None:
         """A single number, also one that is written as text, or None."""
@@ -105,6 +111,7 @@ class NetcdfFile:
         if name not in self.names:
             return None
         variable = self._file.variables[name]
+        self._read.add(name)
         try:
             if np.prod(variable.shape, dtype=float) * variable.dtype.itemsize > LARGEST:
                 raise ValueError("larger than any variable of a dive")

@@ -14,8 +14,8 @@ __all__ = ["cached_list"]
 ENDINGS = (".cac", ".ccc")
 
 
-def cached_list(path: Path, crc: str, folder: Path | None) -> bytes:
-    """The lines of a factored sensor list.
+def cached_list(path: Path, crc: str, folder: Path | None) -> tuple[bytes, Path]:
+    """The lines of a factored sensor list, and the file that they stand in.
 
     Sought in the folder of ``path``, then in ``cache`` beside it, then in ``folder``; capitals do not matter. Raises
     InputError naming what is wanted and where it was sought, or what is wrong with what was found.
@@ -32,7 +32,7 @@ def cached_list(path: Path, crc: str, folder: Path | None) -> bytes:
             if is_packed(text[:16], b"s:"):
                 text, damaged = unpacked(text)
             if damaged is None and checksum(text) == crc:
-                return text.replace(b"\r\n", b"\n")
+                return text.replace(b"\r\n", b"\n"), file
             wrong.append(str(file))
     if wrong:
         raise InputError(path, f"its cache {', '.join(wrong)} is cut or damaged: the checksum of its text is not {crc}")

@@ -86,6 +86,15 @@ class Cycles:
         kind = np.dtype(f"{self.header.order}{'f' if size in FLOATING else 'i'}{size}")
         return np.ndarray((len(self.data) - size + 1,), kind, self.data, strides=(1,))
 
+    def told(self) -> list[str]:
+        """The names of the sensors that cycles tell of, apart from the first one and from dumps."""
+        counted = ~self.dump
+        counted[: self.stale] = False
+        bits = np.bitwise_or.reduce(self._states if counted.all() else self._states[counted], axis=0)
+        slots = (bits[:, None] >> np.array(SHIFTS)) & 3
+        names = self.header.listed.names
+        return [names[place] for place in np.flatnonzero(slots.ravel()) if place < len(names)]
+
     @functools.cached_property
     def _used(self) -> NDArray[np.bool_]:
         """Whether any cycle but the first tells of the sensors of a state byte, (state bytes,)."""

@@ -18,12 +18,12 @@ from glidercli.errors import InputError
 from glidercli.gzipped import beginning
 from glidercli.log import Log
 from glidercli.logio.reader import Aids, Part
-from glidercli.logio.records import NO_TIME, usable
+from glidercli.logio.records import NO_TIME, sampled, usable
 from glidercli.logio.report import FileReport
 from glidercli.logio.slocum.channels import RELAYED, USED, Column, channels_of
 from glidercli.logio.slocum.cycles import Cycles, Samples
 from glidercli.logio.slocum.packing import LABEL, is_packed
-from glidercli.logio.slocum.sensors import clock_of, cycles_of, times_of
+from glidercli.logio.slocum.sensors import CLOCKS, clock_of, cycles_of, times_of
 
 __all__ = ["is_slocum", "read_slocum"]
 
@@ -50,7 +50,7 @@ def is_slocum(path: Path) -> bool:
 
 def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
     """One file; raises InputError where nothing of it can be read, such as for want of its cache."""
-    cycles, damage = cycles_of(path, aids.cache)
+    cycles, damage, caches = cycles_of(path, aids.cache)
     tags = cycles.header.tags
     kind, fullness = KINDS.get(tags["filename_extension"].lower(), ("", 0))
     if not kind:
@@ -73,7 +73,7 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
     good[good] = usable(time_ns[good], {name: c.sampled[good] for name, c in columns.items()}, dropped)
     kept_columns = {name: Column(c.sampled[good], c.fresh[good], c.latest[good]) for name, c in columns.items()}
     channels, notes, warnings = channels_of(time_ns[good], kept_columns)
-    kept = np.isin(time_ns[good], np.concatenate([c.time_ns for c in channels] or [time_ns[:0]]))
+    kept = sampled(time_ns[good], {channel.name: channel for channel in channels})
     if not kept.all():
         dropped["no usable value"] += int((~kept).sum())
     if repeated:
@@ -82,7 +82,7 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
         warnings.insert(0, cycles.remark)
     report = FileReport(
         path, "slocum", len(cycles) + sum(cycles.torn.values()), int(kept.sum()), tuple(sorted(dropped.items())),
-        tuple(warnings), "; ".join(text for text in (damage, cycles.error) if text) or None,
+        tuple(warnings), "; ".join(text for text in (damage, cycles.error) if text) or None, caches,
     )  # fmt: skip
     recording = tags["full_filename"].lower()
     platform = f"Slocum {recording.split('-')[0]}"
@@ -100,6 +100,7 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
         fullness=fullness,
         yields=RELAYED if kind == NAVIGATION else frozenset(),
         partner=f"{recording} {SCIENCE if kind == NAVIGATION else NAVIGATION}",
+        unread=tuple(name for name in cycles.told() if name not in (*USED, *CLOCKS)),
     )
 
 

@@ -17,22 +17,29 @@ from glidercli.logio.slocum.header import header_of
 from glidercli.logio.slocum.packing import LABEL, is_packed, unpacked
 from glidercli.logio.slocum.scanning import scan
 
-__all__ = ["clock_of", "cycles_of", "sensors", "times_of"]
+__all__ = ["CLOCKS", "clock_of", "cycles_of", "sensors", "times_of"]
 
 CLOCKS = ("m_present_time", "sci_m_present_time")
 """Sensors that tell a cycle's time, s since 1970: the navigation's, the science computer's; the first that is there."""
 
 
-def cycles_of(path: Path, cache: Path | None = None) -> tuple[Cycles, str | None]:
-    """The cycles of a file, and where its compressed data are damaged, or None."""
+def cycles_of(path: Path, cache: Path | None = None) -> tuple[Cycles, str | None, tuple[Path, ...]]:
+    """The cycles of a file; where its compressed data are damaged, or None; and the cache that was used, if any."""
     data, whole = gunzipped(path, readable_file(path).read_bytes())
     damage = None if whole else "gzip data cut short or damaged: only what could be unpacked was read"
     if is_packed(data[:16], LABEL):
         data, at = unpacked(data)
         if at is not None:
             damage = f"compressed data cut short or damaged at byte {at} of the file: only what stands before was read"
-    header = header_of(path, data, lambda crc: cached_list(path, crc, cache))
-    return scan(header, data), damage
+    used: list[Path] = []
+
+    def listed(crc: str) -> bytes:
+        text, file = cached_list(path, crc, cache)
+        used.append(file)
+        return text
+
+    header = header_of(path, data, listed)
+    return scan(header, data), damage, tuple(used)
 
 
 def clock_of(path: Path, cycles: Cycles) -> int:
@@ -62,7 +69,7 @@ def sensors(
     for a sensor that it does not have.
     """
     path = Path(path)
-    cycles, _ = cycles_of(path, None if cache is None else Path(cache))
+    cycles, _, _ = cycles_of(path, None if cache is None else Path(cache))
     places = cycles.header.listed.places
     wanted = list(places if names is None else names)
     for name in wanted:

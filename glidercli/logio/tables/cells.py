@@ -23,10 +23,14 @@ LONGEST_LINE = 1 << 20
 
 
 class Cells(NamedTuple):
-    """columns : pyarrow arrays by name. cut : rows with another number of fields than the line of names."""
+    """columns : pyarrow arrays by name. cut : rows with another number of fields than the line of names.
+
+    others : names of further columns; whether they hold data is not looked at.
+    """
 
     columns: dict[str, Any]
     cut: int
+    others: tuple[str, ...]
 
 
 def read_cells(path: Path, names: Sequence[str], how: File) -> Cells:
@@ -36,9 +40,11 @@ def read_cells(path: Path, names: Sequence[str], how: File) -> Cells:
     if is_parquet(path):
         with opened(path) as file:
             stored = {name.strip(): name for name in file.schema_arrow.names}
-            _check_there(path, names, [name.strip() for name in file.schema_arrow.names])
+            there = [name.strip() for name in file.schema_arrow.names]
+            _check_there(path, names, there)
             table = file.read(columns=[stored[name] for name in names])
-            return Cells({name: table.column(stored[name]).combine_chunks() for name in names}, 0)
+            columns = {name: table.column(stored[name]).combine_chunks() for name in names}
+            return Cells(columns, 0, _others(names, there))
     from pyarrow import csv as csv_of_arrow
 
     there = _head(path, how)
@@ -65,11 +71,16 @@ def read_cells(path: Path, names: Sequence[str], how: File) -> Cells:
         table = csv_of_arrow.read_csv(path, read, parse, convert)
     except pa.ArrowInvalid as fault:
         if "Empty CSV file" in str(fault):
-            return Cells({name: pa.array([], pa.string()) for name in names}, 0)
+            return Cells({name: pa.array([], pa.string()) for name in names}, 0, ())
         raise InputError(path, f"is no table of text in {how.encoding}: {str(fault).splitlines()[0]}") from None
     except (pa.ArrowException, OSError, ValueError, LookupError) as fault:
         raise InputError(path, f"is no table of text in {how.encoding}: {str(fault).splitlines()[0]}") from None
-    return Cells({name: table.column(place).combine_chunks() for name, place in places.items()}, cut)
+    columns = {name: table.column(place).combine_chunks() for name, place in places.items()}
+    return Cells(columns, cut, _others(names, there))
+
+
+def _others(names: Sequence[str], there: Sequence[str]) -> tuple[str, ...]:
+    return tuple(name for name in dict.fromkeys(there) if name and name not in names)
 
 
 def _head(path: Path, how: File) -> list[str]:

@@ -87,7 +87,7 @@ class Column:
     unit: str | None = None
     scale: _Number = 1.0
     offset: _Number = 0.0
-    phases: dict[str, Literal["surface", "dive", "climb", "hover"]] | None = None
+    phases: dict[str, Literal["surface", "dive", "climb", "hover", "inflection"]] | None = None
     """Words of the table by phase; default: the phases' own."""
     origin: Origin | None = None
 

@@ -95,9 +95,10 @@ def read_table(path: Path, aids: Aids = Aids()) -> Part:
         metadata["origin_note"] = UNSAID
         warnings.append(UNSAID)
     report = FileReport(
-        path, "table", len(time_ns) + cells.cut, int(kept.sum()), tuple(sorted(dropped.items())), tuple(warnings)
-    )
-    return Part(Log(channels, origin, metadata), report, time_ns[good][kept])
+        path, "table", len(time_ns) + cells.cut, int(kept.sum()), tuple(sorted(dropped.items())), tuple(warnings),
+        beside=(found,),
+    )  # fmt: skip
+    return Part(Log(channels, origin, metadata), report, time_ns[good][kept], unread=cells.others)
 
 
 def _any(values: MappingOf[str, Array]) -> Array:

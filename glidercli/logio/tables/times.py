@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.logio.netcdf.times import FIRST, LAST, ticks, zero_and_unit
-from glidercli.logio.records import NO_TIME
+from glidercli.logio.records import NO_TIME, to_ns
 from glidercli.logio.tables.cells import numbers, words
 from glidercli.logio.tables.mapping import NUMBERS, Missing, Time
 
@@ -70,5 +70,4 @@ def _of_texts(texts: Any, form: str) -> Times:
     series = pd.Series(texts.to_numpy(zero_copy_only=False), dtype=object)
     pattern = "ISO8601" if form == "iso" else form
     parsed = pd.to_datetime(series, utc=True, errors="coerce", format=pattern).dt.tz_localize(None)
-    told = parsed.between(pd.Timestamp("1700-01-01"), pd.Timestamp("2200-01-01"))
-    return np.where(told, parsed.where(told).to_numpy().astype("datetime64[ns]").astype(np.int64), NO_TIME)
+    return to_ns(parsed)
