@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from glidercli.log import Log
 from glidercli.logio.report import FileReport
+from glidercli.logio.whereabouts import Whereabouts
 
 __all__ = ["Aids", "Format", "Part"]
 
@@ -39,6 +40,7 @@ class Part:
     fullness : of several files that hold the same, the one with the most counts.
     partner : name of the recording that a file beside this one usually holds, or "".
     yields : channels that are given up where another file of the dive has them.
+    near : positions that are no fixes, for absolute salinity alone; None where the file tells none.
     """
 
     log: Log
@@ -49,6 +51,7 @@ class Part:
     fullness: int = 0
     yields: frozenset[str] = frozenset()
     partner: str = ""
+    near: Whereabouts | None = None
 
 
 @dataclasses.dataclass(frozen=True)

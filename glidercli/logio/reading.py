@@ -18,6 +18,7 @@ from glidercli.logio.joining import joined
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport, all_dropped
 from glidercli.logio.spreading import read_all
+from glidercli.logio.whereabouts import joined_whereabouts
 
 __all__ = ["Reading", "read"]
 
@@ -82,10 +83,11 @@ def read(
     dives = tuple(dict.fromkeys(part.dive for part in parts if part.dive))
     held = {"", *(name for part in parts for name in part.holds)}
     partners = tuple((part.partner, part.report.path.name) for part in parts if part.partner not in held)
+    near = joined_whereabouts([part.near for part in parts])
     log, whole = joined(parts)
     reports |= {report.path: report for report in whole}
     if not all(FORMATS[report.format].own for report in whole if report.format):
-        log = with_derived(log)
+        log = with_derived(log, near)
     return Reading(log, tuple(reports.values()), dives, partners)
 
 

@@ -13,14 +13,15 @@ from numpy.typing import NDArray
 
 from glidercli.log import Channel, Event, Log
 from glidercli.logio.netcdf.fixes import fixes
-from glidercli.logio.netcdf.variables import COMPUTED, Values, attributes, values_of
+from glidercli.logio.netcdf.variables import BAD_PLACE, COMPUTED, Values, attributes, values_of
 from glidercli.logio.plausible import quantity_of
 from glidercli.logio.quantities import channel_of, submerged
 from glidercli.logio.reader import Part
 from glidercli.logio.records import sampled, usable
 from glidercli.logio.report import FileReport
+from glidercli.logio.whereabouts import Whereabouts, whereabouts
 
-__all__ = ["Positions", "Rows", "found_in", "part_of"]
+__all__ = ["Positions", "Rows", "found_in", "near_of", "part_of"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -47,7 +48,10 @@ class Positions:
 
 @dataclasses.dataclass(frozen=True)
 class Rows:
-    """The rows of a file: their times, values by channel, positions, and what else is told of them."""
+    """The rows of a file: their times, values by channel, positions, and what else is told of them.
+
+    near : positions that are no fixes, for absolute salinity alone.
+    """
 
     time_ns: Times
     found: Mapping[str, Values]
@@ -55,6 +59,7 @@ class Rows:
     metadata: Mapping[str, str]
     warnings: list[str]
     events: tuple[Event, ...] = ()
+    near: Whereabouts | None = None
 
 
 def found_in(
@@ -88,6 +93,20 @@ def found_in(
     if other:
         warnings.append(f"variables not known and not used: {', '.join(other)}")
     return found
+
+
+def near_of(file: Any, time_ns: Times, names: tuple[str, str]) -> Whereabouts | None:
+    """Positions of two variables, latitude and longitude, that need be no fixes; None where they cannot be read.
+
+    time_ns : (n,), of their rows.
+    """
+    if not set(names) <= file.variables.keys() or any(file[name].size != len(time_ns) for name in names):
+        return None
+    pair = zip(names, ("latitude", "longitude"), strict=True)
+    latitude, longitude = (values_of(file, name, channel, [], BAD_PLACE) for name, channel in pair)
+    if latitude is None or longitude is None:
+        return None
+    return whereabouts(time_ns, latitude.values, longitude.values)
 
 
 def part_of(path: Path, format: str, rows: Rows, holds: tuple[str, ...] = ()) -> Part:
@@ -131,7 +150,7 @@ def part_of(path: Path, format: str, rows: Rows, holds: tuple[str, ...] = ()) ->
     log = Log({n: c for n, c in channels.items() if len(c)}, "measured", dict(rows.metadata), rows.events)
     reasons = tuple(sorted((reason, count) for reason, count in dropped.items() if count))
     report = FileReport(path, format, len(rows.time_ns), int(kept.sum()), reasons, tuple(warnings))
-    return Part(log, report, np.sort(record_ns[kept]), holds=holds, fullness=int(kept.sum()))
+    return Part(log, report, np.sort(record_ns[kept]), holds=holds, fullness=int(kept.sum()), near=rows.near)
 
 
 def _based(computed: Channel, channels: Mapping[str, Channel], warnings: list[str]) -> Channel:

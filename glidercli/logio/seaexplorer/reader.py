@@ -20,7 +20,7 @@ from glidercli.log import Log
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import usable
 from glidercli.logio.report import FileReport
-from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, channels_of
+from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, channels_of, near_of
 
 __all__ = ["is_seaexplorer", "read_seaexplorer"]
 
@@ -96,6 +96,7 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
         holds=(f"{recording['mission']}.{recording['unit']}.{recording['dive']}".lower(),) if recording else (),
         fullness=int(recording is not None and recording["kind"].lower() == "raw"),
         partner=_partner(recording),
+        near=near_of(time_ns[good], table),
     )
 
 
