@@ -155,7 +155,8 @@ class NcFile:
         ]
         bare = [v for v in numbers if not hasattr(v, "standard_name")]
         by_name = [v for name in told.names for v in bare if v.name.lower() == name]
-        return by_standard + by_name
+        found = by_standard + by_name
+        return sorted(found, key=lambda v: v.name.upper().endswith("_ADJUSTED"))  # netcdf_adjusted.py sees to these
 
     def find(self, quantity: str, within: tuple[str, ...] | None = None) -> Any | None:
         """The first candidate whose dimensions of more than one are all among ``within``, or None."""
@@ -199,7 +200,7 @@ class NcFile:
         import cftime
 
         raw = np.ma.asarray(self.numbers(variable), dtype=np.float64)
-        units, calendar = str(getattr(variable, "units", "")), str(getattr(variable, "calendar", "standard"))
+        units, calendar = str(getattr(variable, "units", "")), str(getattr(variable, "calendar", "standard")).lower()
         try:
             if calendar not in _CALENDARS:
                 raise ValueError
