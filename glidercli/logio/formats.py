@@ -93,4 +93,7 @@ def _unrecognised(path: Path) -> InputError:
         with path.open("rb") as stream:
             packed = is_gzip(stream.read(2))
         what = "is gzip data that unpack to no log: damaged, or not one" if packed else "is not a log that can be read"
+    if path.suffix.lower() in ENDINGS:
+        what += f"; if it is a table, --columns FILE.toml or {path.stem}.toml beside it says what its columns are "
+        what += "(docs/columns.md)"
     return InputError(path, f"{what}; readable are {kinds}")

@@ -13,7 +13,7 @@ from glidercli.ocean import seawater
 from glidercli.ocean.cnv import is_cnv, parse_cnv
 from glidercli.ocean.doubts import doubts
 from glidercli.ocean.downcast import CONDUCTIVITY, DEEPEST_DBAR, DENSITY, SALINITY, TEMPERATURE, downcast
-from glidercli.ocean.place import Place
+from glidercli.ocean.place import Place, middle_of
 from glidercli.ocean.profile import wide_gaps
 from glidercli.ocean.seabird import PRESSURE, samples
 from glidercli.ocean.series import Moment
@@ -248,7 +248,7 @@ def _column(table: Table, name: str, allowed: tuple[float, float]) -> Array | No
 def _constant(table: Table, column: str, low: float, high: float) -> float | None:
     """Median of a column of positions, or None where none is told."""
     told = table.rows(~table.lacking(column)) if column in table else ()
-    return float(np.median(told.numbers(column, low, high))) if told else None
+    return middle_of(told.numbers(column, low, high), column.removesuffix("_deg")) if told else None
 
 
 def _missing(table: Table, needed: str) -> InputError:

@@ -22,7 +22,7 @@ from glidercli.ocean.cast import Cast
 from glidercli.ocean.counting import counted
 from glidercli.ocean.current import GREATEST_SPEED, CurrentProfile
 from glidercli.ocean.measured import Measured, cast_of, usable
-from glidercli.ocean.place import Place
+from glidercli.ocean.place import Place, middle_of
 from glidercli.ocean.seawater import checked_latitude, depth_from_pressure
 from glidercli.ocean.series import Moment
 from glidercli.ocean.source import left_out
@@ -193,7 +193,7 @@ def _middle(log: Log, name: str, window: tuple[int, int] | None) -> float | None
     if channel is None or not len(channel):
         return _near(log, name)
     inside = channel.values if window is None else channel.sliced(window[0], window[1] + 1).values
-    return float(np.median(inside if len(inside) else channel.values))
+    return middle_of(inside if len(inside) else channel.values, name)
 
 
 def _near(log: Log, name: str) -> float | None:

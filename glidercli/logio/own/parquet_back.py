@@ -173,7 +173,8 @@ def _times(path: Path, columns: dict[str, Any]) -> Any:
         else:
             texts = pd.Series(column.cast(pa.string()).to_pylist(), dtype=object)
             parsed = pd.to_datetime(texts, utc=True, errors="coerce", format="ISO8601").dt.tz_localize(None)
-            times = parsed.to_numpy().astype("datetime64[ns]")
+            told = parsed.between(pd.Timestamp("1700-01-01"), pd.Timestamp("2200-01-01"))  # what 64 bits of ns hold
+            times = parsed.where(told).to_numpy().astype("datetime64[ns]")
     except (pa.ArrowException, ValueError, OverflowError):
         raise InputError(path, f"its times are a column of {column.type}; timestamps or seconds are needed") from None
     bad = np.flatnonzero(np.isnat(times))

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import gsw
 import netCDF4
 import numpy as np
 import pytest
 
 from glidercli.errors import InputError
 from glidercli.ocean.kind import holds_profiles
-from glidercli.ocean.water_file import read_casts
+from glidercli.ocean.water_file import read_casts, read_currents
 
 
 def indexed(path, index, feature="profile", along_time=False):
@@ -70,3 +71,21 @@ def test_a_single_level_is_no_profile(tmp_path, dimensions):
             file[name][:] = 10.0
     with pytest.raises(InputError, match=r"t is at a single depth \(depth\); a profile needs at least two"):
         read_casts(path)
+
+
+def test_a_current_at_the_equator_has_its_own_latitude_not_the_flights(tmp_path):
+    path = tmp_path / "flow.nc"
+    p = np.array([1000.0, 2000.0])
+    with netCDF4.Dataset(path, "w") as file:
+        file.createDimension("p", 2)
+        for name, standard, unit, values in (
+            ("p", "sea_water_pressure", "dbar", p),
+            ("u", "eastward_sea_water_velocity", "m s-1", [0.1, 0.2]),
+            ("v", "northward_sea_water_velocity", "m s-1", [0.1, 0.2]),
+        ):
+            file.createVariable(name, "f8", ("p",)).setncatts({"standard_name": standard, "units": unit})
+            file[name][:] = values
+        file.createVariable("lat", "f8", ()).setncatts({"standard_name": "latitude", "units": "degrees_north"})
+        file["lat"][...] = 0.0
+    (flow,) = read_currents(path, latitude=60.0)
+    assert flow.depth == pytest.approx(-gsw.z_from_p(p, 0.0), abs=1e-9)
