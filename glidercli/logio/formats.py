@@ -107,4 +107,7 @@ def _unrecognised(path: Path) -> InputError:
         with path.open("rb") as stream:
             data = stream.read(_HEAD)
         what = _packed(beginning(data, _HEAD)) if is_gzip(data) else "is not a log that can be read"
+    if path.suffix.lower() in ENDINGS:
+        what += f"; if it is a table, --columns FILE.toml or {path.stem}.toml beside it says what its columns are "
+        what += "(docs/columns.md)"
     return InputError(path, f"{what}; readable are {kinds}")

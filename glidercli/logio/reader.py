@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from glidercli.log import Log
 from glidercli.logio.report import FileReport
+from glidercli.logio.whereabouts import Whereabouts
 
 __all__ = ["Aids", "Format", "Part"]
 
@@ -40,6 +41,7 @@ class Part:
     partner : name of the recording that a file beside this one usually holds, or "".
     yields : channels that are given up where another file of the dive has them.
     unread : names of columns with data that no channel is taken from.
+    near : positions that are no fixes, for absolute salinity alone; None where the file tells none.
     """
 
     log: Log
@@ -51,6 +53,7 @@ class Part:
     yields: frozenset[str] = frozenset()
     partner: str = ""
     unread: tuple[str, ...] = ()
+    near: Whereabouts | None = None
 
 
 @dataclasses.dataclass(frozen=True)

@@ -19,6 +19,7 @@ from glidercli.logio.joining import joined
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport, all_dropped
 from glidercli.logio.spreading import read_all
+from glidercli.logio.whereabouts import joined_whereabouts
 
 __all__ = ["Reading", "read"]
 
@@ -92,10 +93,11 @@ def read(
     held = {"", *(name for part in parts for name in part.holds)}
     partners = tuple((part.partner, part.report.path.name) for part in parts if part.partner not in held)
     own = all(FORMATS[part.report.format].own for part in parts if part.report.format)
+    near = joined_whereabouts([part.near for part in parts])
     log, whole = joined(parts, own)
     reports |= {report.path: report for report in whole}
     if not own:
-        log = with_derived(log)
+        log = with_derived(log, near)
     return Reading(log, tuple(reports.values()), dives, partners, tuple(unread))
 
 

@@ -1,6 +1,7 @@
 """What does a glider fly through? Seawater (TEOS-10), CTD and ADCP files, and the ocean that they make.
 
 source.py (text) -> table.py (CSV), cnv.py (Sea-Bird) -> seabird.py, downcast.py -> cast.py, current.py
+-> table_profiles.py
 log -> dives.py -> from_log.py; netcdf.py; adcp_file.py -> pings.py
 all of them -> gathering.py -> profile.py -> water.py -> ocean.py
 """

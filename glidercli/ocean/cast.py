@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,14 +13,14 @@ from glidercli.ocean import seawater
 from glidercli.ocean.cnv import is_cnv, parse_cnv
 from glidercli.ocean.doubts import doubts
 from glidercli.ocean.downcast import CONDUCTIVITY, DEEPEST_DBAR, DENSITY, SALINITY, TEMPERATURE, downcast
-from glidercli.ocean.place import Place
+from glidercli.ocean.place import Place, middle_of
 from glidercli.ocean.profile import wide_gaps
 from glidercli.ocean.seabird import PRESSURE, samples
-from glidercli.ocean.series import Moment, parts
+from glidercli.ocean.series import Moment
 from glidercli.ocean.source import left_out, listed, read_text
-from glidercli.ocean.table import Table, parse_table
+from glidercli.ocean.table import Table, TooFewError, parse_table
 
-__all__ = ["EXPECTED", "Cast", "read_ctd", "text_casts"]
+__all__ = ["EXPECTED", "Cast", "cast_of_table", "read_ctd"]
 
 Array = NDArray[np.float64]
 
@@ -74,19 +73,6 @@ class Cast:
         return len(self.depth) + sum(count for _, count in self.dropped)
 
 
-def text_casts(path: Path, latitude: float | None, longitude: float | None) -> tuple[Cast, ...]:
-    """The casts of a text: of a .cnv one, of a table one for each time that several rows share; see ``read_ctd``."""
-    text = read_text(path, EXPECTED)
-    if is_cnv(text):
-        return (read_ctd(path, latitude, longitude),)
-    if latitude is not None:
-        seawater.checked_latitude(latitude)
-    table = parse_table(path, text, EXPECTED)
-    return tuple(
-        dataclasses.replace(_from_table(part, latitude, longitude), moment=moment) for moment, part in parts(table)
-    )
-
-
 def read_ctd(path: str | Path, latitude: float | None = None, longitude: float | None = None) -> Cast:
     """The cast in a Sea-Bird .cnv file or a plain table, told apart by content; either may be gzipped.
 
@@ -109,7 +95,7 @@ def read_ctd(path: str | Path, latitude: float | None = None, longitude: float |
     text = read_text(path, EXPECTED)
     if is_cnv(text):
         return _from_cnv(path, text, latitude, longitude)
-    return _from_table(parse_table(path, text, EXPECTED), latitude, longitude)
+    return cast_of_table(parse_table(path, text, EXPECTED), latitude, longitude)
 
 
 def _from_cnv(path: Path, text: str, latitude: float | None, longitude: float | None) -> Cast:
@@ -152,8 +138,8 @@ def _from_cnv(path: Path, text: str, latitude: float | None, longitude: float | 
     )
 
 
-def _from_table(table: Table, latitude: float | None, longitude: float | None) -> Cast:
-    """The profile of a plain table, every row of it that lacks nothing."""
+def cast_of_table(table: Table, latitude: float | None, longitude: float | None) -> Cast:
+    """The profile of a plain table, every row of it that lacks nothing; TooFewError where fewer than two are left."""
     whole = table
     table, dropped = _complete(whole)
     own_latitude = _constant(table, "latitude_deg", -90.0, 90.0)
@@ -171,7 +157,7 @@ def _from_table(table: Table, latitude: float | None, longitude: float | None) -
         absolute = place.absolute_salinity(salinity, pressure)
     density, warnings = _density(table, absolute, temperature, pressure)
     if len(table) < 2:
-        raise InputError(
+        raise TooFewError(
             table.path, f"line {table.lines[0]}: is the only usable sample of its profile; at least two are needed"
         )
     missing = next((name.split("_")[0] for name in ("depth_m", "pressure_dbar") if name not in table), None)
@@ -215,7 +201,7 @@ def _complete(table: Table) -> tuple[Table, tuple[tuple[str, int], ...]]:
             kept &= ~lacking
     if not kept.any():
         reasons = ", ".join(f"{count} {reason}" for reason, count in dropped)
-        raise InputError(table.path, f"has no usable sample among {len(table)}: {reasons}; at least two are needed")
+        raise TooFewError(table.path, f"has no usable sample among {len(table)}: {reasons}; at least two are needed")
     return table.rows(kept), tuple(dropped)
 
 
@@ -262,7 +248,7 @@ def _column(table: Table, name: str, allowed: tuple[float, float]) -> Array | No
 def _constant(table: Table, column: str, low: float, high: float) -> float | None:
     """Median of a column of positions, or None where none is told."""
     told = table.rows(~table.lacking(column)) if column in table else ()
-    return float(np.median(told.numbers(column, low, high))) if told else None
+    return middle_of(told.numbers(column, low, high), column.removesuffix("_deg")) if told else None
 
 
 def _missing(table: Table, needed: str) -> InputError:

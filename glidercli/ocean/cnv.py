@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
+from glidercli.ocean.place import middle_of
 
 __all__ = ["CnvColumn", "CnvFile", "is_cnv", "parse_cnv"]
 
@@ -165,7 +166,7 @@ def _place(
             return _degrees(match)
     for i, column in enumerate(columns):
         if column.name == name and np.isfinite(rows[:, i]).any():
-            return float(np.nanmedian(rows[:, i]))
+            return middle_of(rows[np.isfinite(rows[:, i]), i], name)
     return None
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,17 +12,20 @@ from numpy.typing import NDArray
 from glidercli.errors import InputError
 from glidercli.ocean.counting import counted
 from glidercli.ocean.profile import wide_gaps
-from glidercli.ocean.series import Moment, parts, utc_seconds
+from glidercli.ocean.series import Moment, utc_seconds
 from glidercli.ocean.source import left_out, listed, read_text
-from glidercli.ocean.table import Table, parse_table
+from glidercli.ocean.table import Table, TooFewError, parse_table
 
-__all__ = ["BAD_VELOCITY", "DEEPEST", "GREATEST_SPEED", "CurrentProfile", "profile_of", "read_adcp", "table_currents"]
+__all__ = [
+    "BAD_VELOCITY", "DEEPEST", "EXPECTED_CURRENT", "GREATEST_SPEED", "CurrentProfile", "check_earth",
+    "current_of_table", "profile_of", "read_adcp",
+]  # fmt: skip
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 _EAST, _NORTH, _UP = "current_east_m_s", "current_north_m_s", "current_up_m_s"
-_ALLOWED = (
+EXPECTED_CURRENT = (
     f"a current profile is a table with depth_m, {_EAST}, {_NORTH} and, if measured, {_UP}; or NetCDF, RDI PD0, "
     "Nortek .ad2cp"
 )
@@ -63,13 +65,6 @@ class CurrentProfile:
         return len(self.depth) + sum(count for _, count in self.dropped)
 
 
-def table_currents(path: Path) -> tuple[CurrentProfile, ...]:
-    """The current profiles of a table, one for each time that several rows share; see ``read_adcp``."""
-    table = parse_table(path, read_text(path, _ALLOWED), _ALLOWED)
-    _check_earth(table)
-    return tuple(dataclasses.replace(_profile(part), moment=moment) for moment, part in parts(table))
-
-
 def read_adcp(path: str | Path) -> CurrentProfile:
     """The current profile of a table with the columns of the contract, one row for each depth bin.
 
@@ -82,14 +77,17 @@ def read_adcp(path: str | Path) -> CurrentProfile:
         The file or a column cannot be used, a cell is no number, depths do not increase, or no bin is left.
     """
     path = Path(path)
-    return _profile(parse_table(path, read_text(path, _ALLOWED), _ALLOWED))
+    return current_of_table(parse_table(path, read_text(path, EXPECTED_CURRENT), EXPECTED_CURRENT))
 
 
-def _profile(table: Table) -> CurrentProfile:
+def current_of_table(table: Table) -> CurrentProfile:
+    """The profile of a table's rows; TooFewError where fewer than two can be used."""
     path = table.path
     missing = tuple(name for name in ("depth_m", _EAST, _NORTH) if name not in table)
     if missing:
-        raise InputError(path, f"has no column {listed(missing)}; its columns are {listed(table.columns)}; {_ALLOWED}")
+        raise InputError(
+            path, f"has no column {listed(missing)}; its columns are {listed(table.columns)}; {EXPECTED_CURRENT}"
+        )
     depth = table.increasing("depth_m", 0.0, DEEPEST)
     measured = [table.measured(name) for name in (_EAST, _NORTH, _UP) if name in table]
     east, north = measured[:2]
@@ -100,10 +98,10 @@ def _profile(table: Table) -> CurrentProfile:
     dropped = counted(_faults(velocity, "gap (empty or NaN)"), good)
     if not good.any():
         reasons = ", ".join(f"{count} {reason}" for reason, count in dropped)
-        raise InputError(path, f"has no usable bin among {len(table)}: {reasons}; at least two are needed")
+        raise TooFewError(path, f"has no usable bin among {len(table)}: {reasons}; at least two are needed")
     if good.sum() < 2:
         line = table.lines[int(np.flatnonzero(good)[0])]
-        raise InputError(path, f"line {line}: is the only usable bin of its profile; at least two are needed")
+        raise TooFewError(path, f"line {line}: is the only usable bin of its profile; at least two are needed")
     unknown = table.unknown((_EAST, _NORTH, _UP, *_FRAMES))
     warnings = left_out(dropped, len(table), "bins")
     if dropped and good.sum() > 1:
@@ -116,7 +114,7 @@ def _profile(table: Table) -> CurrentProfile:
     return CurrentProfile(*profile, path, dropped, warnings, table.reconstructed, None, _own_moment(table))
 
 
-def _check_earth(table: Table) -> None:
+def check_earth(table: Table) -> None:
     """Refuse a table that says its velocities are not in the earth frame."""
     for name in (name for name in _FRAMES if name in table):
         for line, cell in zip(table.lines, table.cells[name], strict=True):

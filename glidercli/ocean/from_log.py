@@ -22,7 +22,7 @@ from glidercli.ocean.cast import Cast
 from glidercli.ocean.counting import counted
 from glidercli.ocean.current import GREATEST_SPEED, CurrentProfile
 from glidercli.ocean.measured import Measured, cast_of, usable
-from glidercli.ocean.place import Place
+from glidercli.ocean.place import Place, middle_of
 from glidercli.ocean.seawater import checked_latitude, depth_from_pressure
 from glidercli.ocean.series import Moment
 from glidercli.ocean.source import left_out
@@ -187,12 +187,22 @@ def _on(times: Times, own: Times, values: Array) -> Array:
 
 
 def _middle(log: Log, name: str, window: tuple[int, int] | None) -> float | None:
-    """Median of a channel within a window of times, else of all of it; None where there is none."""
+    """Median of a channel of positions within a window of times, else of all of it; of a log without fixes the place
+    that its metadata tell; None where there is none."""
     channel = log.channels.get(name)
     if channel is None or not len(channel):
-        return None
+        return _near(log, name)
     inside = channel.values if window is None else channel.sliced(window[0], window[1] + 1).values
-    return float(np.median(inside if len(inside) else channel.values))
+    return middle_of(inside if len(inside) else channel.values, name)
+
+
+def _near(log: Log, name: str) -> float | None:
+    """Roughly where a log without fixes was, deg, by its metadata; None where they do not tell."""
+    try:
+        degrees = float(log.metadata[f"near_{name}_deg"])
+    except (KeyError, ValueError):
+        return None
+    return degrees if abs(degrees) <= (90.0 if name == "latitude" else 360.0) else None
 
 
 def _axis(log: Log, times: Times, latitude: float) -> _Axis | None:

@@ -21,6 +21,7 @@ _MAGIC = (  # NetCDF-3 in its three sizes, HDF5; the header identifiers of the m
     (b"\x7f\x7f", PD0), (b"\x7f\x79", PD0), (b"\xa5\x0a", AD2CP),
 )  # fmt: skip
 _HEAD = 65536  # bytes that tell a header
+_REACH = 100  # rows that are looked at once depth fell: profiles of a single sample may stand before one of several
 _TIMES, _DEPTHS = ("time_utc", "elapsed_s"), ("depth_m", "pressure_dbar")
 
 
@@ -76,8 +77,9 @@ def _is_table(stream: io.TextIOWrapper) -> bool:
 
 
 def _grows(rows: Iterator[list[str]], times: list[int], depth: int) -> bool:
-    """Whether depth grows from row to row before two rows share a time; rows without a depth say nothing."""
+    """Whether depth grows from row to row, or two rows share a time; rows without a depth say nothing."""
     last_time, last = None, -float("inf")
+    left: int | None = None
     for row in rows:
         if len(row) <= max(*times, depth) or not row[depth].strip():
             continue
@@ -88,7 +90,11 @@ def _grows(rows: Iterator[list[str]], times: list[int], depth: int) -> bool:
             return True  # the reader of tables names the line
         if time == last_time:
             return True
-        if z <= last:
+        if left is None and z <= last:
+            left = _REACH
+        elif left is not None:
+            left -= 1
+        if left == 0:
             return False
         last_time, last = time, z
-    return True
+    return left is None

@@ -22,11 +22,12 @@ from glidercli.netcdf_opening import dataset
 from glidercli.ocean.source import listed
 from glidercli.units import KNOT
 
-__all__ = ["QUANTITIES", "NcFile", "opened"]
+__all__ = ["MOST_VALUES", "QUANTITIES", "NcFile", "long_dimensions", "opened"]
 
 Array = NDArray[np.float64]
 
-_MOST_VALUES = 50_000_000  # of one variable, 400 MB
+MOST_VALUES = 50_000_000
+"""Of one variable, 400 MB."""
 
 
 class Quantity(NamedTuple):
@@ -155,7 +156,8 @@ class NcFile:
         ]
         bare = [v for v in numbers if not hasattr(v, "standard_name")]
         by_name = [v for name in told.names for v in bare if v.name.lower() == name]
-        return by_standard + by_name
+        found = by_standard + by_name
+        return sorted(found, key=lambda v: v.name.upper().endswith("_ADJUSTED"))  # netcdf_adjusted.py sees to these
 
     def find(self, quantity: str, within: tuple[str, ...] | None = None) -> Any | None:
         """The first candidate whose dimensions of more than one are all among ``within``, or None."""
@@ -199,7 +201,7 @@ class NcFile:
         import cftime
 
         raw = np.ma.asarray(self.numbers(variable), dtype=np.float64)
-        units, calendar = str(getattr(variable, "units", "")), str(getattr(variable, "calendar", "standard"))
+        units, calendar = str(getattr(variable, "units", "")), str(getattr(variable, "calendar", "standard")).lower()
         try:
             if calendar not in _CALENDARS:
                 raise ValueError
@@ -214,8 +216,8 @@ class NcFile:
     def numbers(self, variable: Any) -> Any:
         """The values of a variable as they stand, masked where the file has none; InputError where too many."""
         size = math.prod(variable.shape)
-        if size > _MOST_VALUES:
-            raise InputError(self.path, f"{variable.name} has {size:.2g} values, allowed are {_MOST_VALUES:.0e}")
+        if size > MOST_VALUES:
+            raise InputError(self.path, f"{variable.name} has {size:.2g} values, allowed are {MOST_VALUES:.0e}")
         return variable[...]
 
     def _factor(self, variable: Any, quantity: str) -> tuple[float, float]:

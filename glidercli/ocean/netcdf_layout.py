@@ -1,7 +1,8 @@
 """How do profiles stand in a NetCDF file? As a grid of profiles by depth in any order of dimensions, or ragged, or one.
 
 Layouts of chapter 9 of the CF conventions: an orthogonal or incomplete array of profiles (a dimension of depth, and at
-most one other), a contiguous ragged array (a variable with ``sample_dimension`` counts), a single profile.
+most one other), a contiguous ragged array (a variable with ``sample_dimension`` counts), an indexed ragged array (a
+variable with ``instance_dimension`` tells of each sample its profile, from 0), a single profile.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
-from glidercli.ocean.netcdf import NcFile, long_dimensions, opened
+from glidercli.ocean.netcdf import MOST_VALUES, NcFile, long_dimensions, opened
 
 __all__ = ["Layout", "has_profiles", "layout_of"]
 
@@ -22,6 +23,13 @@ Mask = NDArray[np.bool_]
 
 MAIN = ("temperature", "potential_temperature", "conservative_temperature", "density", "east")
 """Quantities that tell the layout, the first that a file has."""
+
+
+class Samples(NamedTuple):
+    """Of a ragged array. counts : (profiles,), samples of each. order : (samples,), which stands where, by profile."""
+
+    counts: NDArray[np.int64]
+    order: NDArray[np.intp] | slice
 
 
 class Layout(NamedTuple):
@@ -36,7 +44,7 @@ class Layout(NamedTuple):
     axis_variable: Any
     vertical: str
     across: str | None
-    rows: dict[str, NDArray[np.int64]]
+    rows: dict[str, Samples]
     profiles: int
 
     def table(self, path: Path, variable: Any, values: NDArray[Any], empty: Any = np.nan) -> NDArray[Any]:
@@ -61,11 +69,13 @@ class Layout(NamedTuple):
         axis, own = self.rows[self.vertical], self.rows.get(long[0]) if len(long) == 1 else None
         if own is None:
             raise _odd(path, variable, tuple(self.rows))
-        if ((own != axis) & (own != 0)).any():
-            i = int(np.flatnonzero((own != axis) & (own != 0))[0])
-            raise InputError(path, f"profile {i} has {axis[i]} samples of {self.axis} and {own[i]} of {variable.name}")
-        out = np.full((self.profiles, int(axis.max(initial=0))), empty, dtype=values.dtype)
-        out[np.arange(out.shape[1]) < own[:, np.newaxis]] = values.ravel()
+        differ = np.flatnonzero((own.counts != axis.counts) & (own.counts != 0))
+        if len(differ):
+            i = int(differ[0])
+            what = f"profile {i} has {axis.counts[i]} samples of {self.axis} and {own.counts[i]} of {variable.name}"
+            raise InputError(path, what)
+        out = np.full((self.profiles, int(axis.counts.max(initial=0))), empty, dtype=values.dtype)
+        out[np.arange(out.shape[1]) < own.counts[:, np.newaxis]] = values.ravel()[own.order]
         return out
 
 
@@ -96,21 +106,26 @@ def layout_of(file: NcFile, main: Any) -> Layout:
 def _found_layout(file: NcFile, main: Any) -> Layout:
     found = _axis(file, main)
     if found is None:
-        raise InputError(
-            file.path,
-            f"has no depth or pressure along {' or '.join(main.dimensions) or main.name}; it has {file.names}",
-        )
+        raise InputError(file.path, _without_axis(file, main))
     axis, variable = found
-    rows = _rows(file)
+    rows = _rows(file, main)
     if variable.ndim == 1 and variable.dimensions[0] in rows:
-        counts = rows[variable.dimensions[0]]
-        return Layout(axis, variable, variable.dimensions[0], None, rows, len(counts))
+        return Layout(axis, variable, variable.dimensions[0], None, rows, len(rows[variable.dimensions[0]].counts))
     vertical = _vertical(file, variable, main)
     others = [name for name in long_dimensions(main) if name != vertical]
     if len(others) > 1:
         raise _odd(file.path, main, (vertical, "time"))
     profiles = main.shape[main.dimensions.index(others[0])] if others else 1
     return Layout(axis, variable, vertical, others[0] if others else None, {}, profiles)
+
+
+def _without_axis(file: NcFile, main: Any) -> str:
+    """What is wrong where no depth or pressure lies along the main variable."""
+    for axis in ("depth", "pressure"):
+        for variable in file.candidates(axis):
+            if variable.size == 1:
+                return f"{main.name} is at a single {axis} ({variable.name}); a profile needs at least two"
+    return f"has no depth or pressure along {' or '.join(main.dimensions) or main.name}; it has {file.names}"
 
 
 def has_profiles(path: Path) -> bool:
@@ -138,7 +153,7 @@ def _is_record(file: NcFile, layout: Layout) -> bool:
 def _axis(file: NcFile, main: Any) -> tuple[str, Any] | None:
     """The variable of depth, else of pressure, that lies along a dimension of the main variable."""
     dimensions = long_dimensions(main)
-    if main.ndim == 1 and main.dimensions[0] in (rows := _rows(file)):
+    if main.ndim == 1 and main.dimensions[0] in (rows := _rows(file, main)):
         dimensions += tuple(rows)
     for axis in ("depth", "pressure"):
         for variable in file.candidates(axis):
@@ -160,9 +175,9 @@ def _vertical(file: NcFile, axis: Any, main: Any) -> str:
     return main.dimensions[-1] if main.dimensions[-1] in own else own[-1]
 
 
-def _rows(file: NcFile) -> dict[str, NDArray[np.int64]]:
-    """Samples of each profile by dimension of samples, where the file holds contiguous ragged arrays."""
-    rows = {}
+def _rows(file: NcFile, main: Any) -> dict[str, Samples]:
+    """Samples of each profile by dimension of samples, where the file holds ragged arrays."""
+    rows: dict[str, Samples] = {}
     for variable in file.variables.values():
         dimension = str(getattr(variable, "sample_dimension", ""))
         if not dimension:
@@ -171,5 +186,28 @@ def _rows(file: NcFile) -> dict[str, NDArray[np.int64]]:
         length = next((v.shape[0] for v in file.variables.values() if v.dimensions == (dimension,)), counts.sum())
         if (counts < 0).any() or counts.sum() != length:
             raise InputError(file.path, f"{variable.name} counts {counts.sum()} samples, {dimension} has {length}")
-        rows[dimension] = counts
-    return rows
+        rows[dimension] = Samples(counts, slice(None))
+    return rows or _indexed(file, main)
+
+
+def _indexed(file: NcFile, main: Any) -> dict[str, Samples]:
+    """The same of an indexed ragged array of profiles; one of trajectories, each sample with its time, is a log."""
+    for variable in file.variables.values():
+        instances = str(getattr(variable, "instance_dimension", ""))
+        if not instances or variable.ndim != 1 or variable.dimensions != main.dimensions:
+            continue
+        in_time = any(v.dimensions == main.dimensions for v in file.candidates("time"))
+        if in_time and "profile" not in str(file.attributes.get("featureType", "")).lower():
+            continue
+        index = np.ma.filled(np.ma.asarray(file.numbers(variable), dtype=np.float64), -1.0)
+        sizes = {n: s for v in file.variables.values() for n, s in zip(v.dimensions, v.shape, strict=True)}
+        count = sizes.get(instances, len(index))
+        if count > MOST_VALUES:
+            raise InputError(file.path, f"announces {count:.2g} profiles, allowed are {MOST_VALUES:.0e}")
+        wrong = np.flatnonzero(~((index >= 0.0) & (index < count) & (index == np.floor(index))))
+        if len(wrong):
+            what = f"{variable.name} of sample {wrong[0]} is {index[wrong[0]]:g}"
+            raise InputError(file.path, f"{what}; allowed are the profiles 0 to {count - 1}")
+        whole = index.astype(np.int64)
+        return {main.dimensions[0]: Samples(np.bincount(whole, minlength=count), np.argsort(whole, kind="stable"))}
+    return {}

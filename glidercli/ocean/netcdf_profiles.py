@@ -18,6 +18,7 @@ from glidercli.ocean.counting import counted
 from glidercli.ocean.current import CurrentProfile, profile_of
 from glidercli.ocean.measured import Measured, cast_of, usable
 from glidercli.ocean.netcdf import NcFile, long_dimensions, opened
+from glidercli.ocean.netcdf_adjusted import Column, adjusted, is_argo, repeats
 from glidercli.ocean.netcdf_layout import MAIN, Layout, layout_of, main_of
 from glidercli.ocean.pings import PING_VARIABLES, currents_of_pings, is_pings, pings_of
 from glidercli.ocean.place import Place
@@ -33,6 +34,7 @@ Mask = NDArray[np.bool_]
 Dropped = tuple[tuple[str, int], ...]
 
 _FEW = "in a profile of fewer than two usable samples"
+_AGAIN = "in a profile of a further sampling at the same time"
 _NO_TIME = "in a profile without a time"
 
 
@@ -51,19 +53,16 @@ def netcdf_casts(path: Path, latitude: float | None, longitude: float | None) ->
         layout = layout_of(file, main[1])
         own = (_along(file, layout, "latitude"), _along(file, layout, "longitude"))
         places = [Place(*at, latitude, longitude) for at in zip(*own, strict=True)]
-        bad = np.zeros(0, dtype=bool)
-        columns: dict[str, Array | None] = {}
-        for quantity in _needed(file, layout):
-            values, flagged = _column(file, layout, quantity)
-            columns[quantity] = values
-            if values is not None:
-                bad = flagged if not len(bad) else bad | flagged
+        read = {quantity: _column(file, layout, quantity) for quantity in _needed(file, layout)}
+        columns = adjusted(file, layout, {quantity: column for quantity, column in read.items() if column is not None})
+        bad = np.any([column.bad for column in columns.values()], axis=0)
         times = _times(file, layout)
+        again = repeats(times) if is_argo(file) else np.zeros(layout.profiles, dtype=bool)
         remarks = tuple(file.remarks)
     casts: list[Cast] = []
     lost: list[Dropped] = []
     for i in range(layout.profiles):
-        rows = {name: None if values is None else values[i] for name, values in columns.items()}
+        rows = {name: column.values[i] for name, column in columns.items()}
         water = _water(path, rows, places[i])
         inside: Mask = np.any([np.isfinite(column) for column in water if column is not None], axis=0)
         kept = inside.copy()
@@ -72,8 +71,9 @@ def netcdf_casts(path: Path, latitude: float | None, longitude: float | None) ->
         order, repeated = _by_depth(path, water, kept, i)
         dropped += more + repeated
         timed = layout.profiles == 1 or np.isfinite(times[i])
-        if len(order) < 2 or not timed:
-            lost += [dropped, ((_FEW if timed else _NO_TIME, len(order)),) if len(order) else ()]
+        if len(order) < 2 or not timed or again[i]:
+            why = _NO_TIME if not timed else _AGAIN if again[i] else _FEW
+            lost += [dropped, ((why, len(order)),) if len(order) else ()]
             continue
         cast = cast_of(water.rows(order), places[i], path, moment=_moment(times[i]), dropped=dropped)
         casts.append(dataclasses.replace(cast, warnings=_about(water, places[i])))
@@ -99,17 +99,18 @@ def netcdf_currents(path: Path, latitude: float | None = None) -> tuple[CurrentP
             )
         file.check_earth([main[1], north])
         layout = layout_of(file, main[1])
-        depth, bad = _column(file, layout, layout.axis)
-        assert depth is not None
+        along = _column(file, layout, layout.axis)
+        assert along is not None
+        _, depth, bad = along
         if layout.axis == "pressure":
-            latitudes = np.array([place or latitude or 0.0 for place in _along(file, layout, "latitude")])
+            here = [latitude if place is None else place for place in _along(file, layout, "latitude")]
+            latitudes = np.array([place or 0.0 for place in here])
             depth = seawater.depth_from_pressure(depth, latitudes[:, np.newaxis])  # type: ignore[arg-type]
         velocity = []
         for quantity in ("east", "north", "up"):
-            values, flagged = _column(file, layout, quantity)
-            if values is not None:
-                velocity.append(values)
-                bad = bad | flagged
+            if (column := _column(file, layout, quantity)) is not None:
+                velocity.append(column.values)
+                bad = bad | column.bad
         times = _times(file, layout)
         remarks = tuple(file.remarks)
     profiles: list[CurrentProfile] = []
@@ -141,13 +142,14 @@ def _as_read(file: NcFile) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
     return found, file.attributes
 
 
-def _column(file: NcFile, layout: Layout, quantity: str) -> tuple[Array | None, Mask]:
-    """A quantity by profile and sample, and where it is flagged bad; None where the file does not have it."""
+def _column(file: NcFile, layout: Layout, quantity: str) -> Column | None:
+    """A quantity by profile and sample; None where the file does not have it."""
     variable = _variable(file, layout, quantity)
     if variable is None:
-        return None, np.zeros(0, dtype=bool)
+        return None
     values, flagged = file.values(variable, quantity)
-    return layout.table(file.path, variable, values), layout.table(file.path, variable, flagged, False)
+    tables = layout.table(file.path, variable, values), layout.table(file.path, variable, flagged, False)
+    return Column(variable.name, *tables)
 
 
 def _needed(file: NcFile, layout: Layout) -> list[str]:
@@ -198,7 +200,7 @@ def _moment(seconds: float) -> Moment | None:
     return Moment(float(seconds), True) if np.isfinite(seconds) else None
 
 
-def _water(path: Path, rows: dict[str, Array | None], place: Place) -> Measured:
+def _water(path: Path, rows: dict[str, Array], place: Place) -> Measured:
     """What one profile has, with the in-situ temperature of a potential or conservative one."""
     depth, pressure, temperature = rows.get("depth"), rows.get("pressure"), rows.get("temperature")
     salinity, absolute = rows.get("salinity"), rows.get("absolute_salinity")
@@ -213,7 +215,7 @@ def _water(path: Path, rows: dict[str, Array | None], place: Place) -> Measured:
                 temperature = seawater.temperature_from_potential(absolute_here, potential, p)
             elif (conservative := rows.get("conservative_temperature")) is not None:
                 temperature = seawater.temperature_from_conservative(absolute_here, conservative, p)
-    names = ", ".join(name for name, values in rows.items() if values is not None)
+    names = ", ".join(rows)
     water = Measured(depth, pressure, temperature, salinity, absolute, rows.get("conductivity"), rows.get("density"))
     return water.checked(path, names)
 

@@ -9,11 +9,23 @@ from numpy.typing import NDArray
 
 from glidercli.ocean import seawater
 
-__all__ = ["Place"]
+__all__ = ["Place", "middle_of"]
 
 Array = NDArray[np.float64]
 
 _ELSEWHERE = 1.0  # deg between the latitude of a cast and that of a flight, worth a word
+
+
+def middle_of(degrees: Array, name: str) -> float:
+    """Median of latitudes or longitudes, (n,), n > 0; of longitudes on both sides of 180 deg it lies between them.
+
+    name : "latitude" or "longitude".
+    """
+    if name != "longitude":
+        return float(np.median(degrees))
+    around = degrees[0] + (degrees - degrees[0] + 180.0) % 360.0 - 180.0
+    middle = float(np.median(around))
+    return middle if -180.0 <= middle <= 360.0 else middle % 360.0
 
 
 @dataclass(frozen=True)

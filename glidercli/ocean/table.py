@@ -17,11 +17,19 @@ from glidercli.errors import InputError
 from glidercli.ocean.source import listed
 from glidercli.origins import column_name, origins
 
-__all__ = ["Table", "parse_table"]
+__all__ = ["Table", "TooFewError", "parse_table"]
 
 Array = NDArray[np.float64]
 
 _ASIDE = ("time_utc", "elapsed_s", "origin")  # columns of any table that hold no channel
+
+
+class TooFewError(InputError):
+    """Fewer than two rows of a profile can be used. what : the message without the file's name."""
+
+    def __init__(self, where: object, what: str) -> None:
+        super().__init__(where, what)
+        self.what = what
 
 
 @dataclass(frozen=True)

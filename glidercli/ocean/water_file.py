@@ -6,9 +6,10 @@ from pathlib import Path
 
 from glidercli.errors import InputError
 from glidercli.files import readable_file
-from glidercli.ocean.cast import EXPECTED, Cast, text_casts
-from glidercli.ocean.current import CurrentProfile, table_currents
+from glidercli.ocean.cast import EXPECTED, Cast
+from glidercli.ocean.current import CurrentProfile
 from glidercli.ocean.kind import AD2CP, NETCDF, PD0, TEXT, kind_of
+from glidercli.ocean.table_profiles import table_currents, text_casts
 
 __all__ = ["read_casts", "read_currents"]
 

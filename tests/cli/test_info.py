@@ -54,7 +54,7 @@ def test_missing_parts_are_named(glider: Run, glider_json: Callable[..., Any], t
 
 def test_what_is_no_log_is_one_line(glider: Run, tmp_path: Path) -> None:
     (tmp_path / "a.txt").write_text("nothing\n")
-    one_line_error(glider("info", "a.txt"), "a.txt", "not a log that can be read")
+    one_line_error(glider("info", "a.txt"), "a.txt", "not a log that can be read", "--columns", "docs/columns.md")
     one_line_error(glider("info", "none"), "none", "no such file")
     assert "Usage: glider info" in glider("info").stdout + glider("info").stderr
 

@@ -105,7 +105,7 @@ def test_inputs_are_all_that_was_read_and_no_more(glider: Run, tmp_path: Path) -
     slocum = ROOT / "tests/data/slocum/comet-2016-174-05-000.dbd"
     shutil.copy(ROOT / "tests/data/seaglider/p5610004.eng", tmp_path)
     shutil.copy(ROOT / "tests/data/seaglider/p5610004.log", tmp_path)
-    (tmp_path / "t.csv").write_text("t,z\n1,5\n2,6\n")
+    (tmp_path / "t.csv").write_text("t,z\n1600000001,5\n1600000002,6\n")
     (tmp_path / "t.toml").write_text(
         '[time]\ncolumn = "t"\nformat = "unix"\n[columns]\ndepth = {column = "z", unit = "m"}\n'
     )

@@ -129,7 +129,6 @@ def test_current_in_time(glider: Run, tmp_path: Path) -> None:
     for text, words in (
         (head + "0,0,0,0\n0,500,0,0\n0,0,1,0\n0,500,1,0\n", ("line 4", "depth_m")),
         (head + "9,0,0,0\n9,500,0,0\n5,0,1,0\n5,500,1,0\n", ("line 4", "elapsed_s = 5")),
-        (head + "0,0,0,0\n0,500,0,0\n5,0,1,0\n", ("line 4", "only usable bin")),
         (head.replace("elapsed_s", "time_utc") + "2020-01-01,0,0,0\n2020-01-01,500,0,0\n2020-01-02,0,1,0\n"
          "2020-01-02,500,1,0\n", ("start_time",)),
         (head + "0,0,0,0\n0,500,0,0\nnan,0,1,0\nnan,500,1,0\n", ("line 4", "elapsed_s = nan", "number of seconds")),

@@ -220,6 +220,7 @@ format = "when"
 deep = { column = "Depth", unit = "m" }
 pitch = { column = "p", unit = "dbar", scal = 2.0 }
 pressure = { column = "P" }
+roll = { column = "p", unit = "deg", scale = 0.0 }
 [file]
 encoding = "klingon"
 colour = "blue"
@@ -232,6 +233,12 @@ def test_every_fault_of_a_mapping_is_told_at_once(tmp_path: Path) -> None:
     for words in (
         "time.format = 'when': allowed: iso, unix, unix_ms, matlab",
         "columns.pitch.scal is unknown; known here: column, unit, scale, offset, phases, origin",
+        "time: needs one of column and columns",
+        "columns: deep is no channel; channels are depth, pressure",
+        "columns: pitch: unit = 'dbar', allowed: rad, deg",
+        "columns: pressure: has no unit, allowed: Pa, hPa",
+        "columns.roll.scale = 0.0: a number other than 0 is needed",
+        "9 faults: ",
         "file.encoding = 'klingon': allowed: names of text encodings",
         "file.colour is unknown; known here: separator, skip_lines, decimal, encoding, platform, title, origin",
     ):
@@ -250,6 +257,9 @@ def test_every_fault_of_a_mapping_is_told_at_once(tmp_path: Path) -> None:
         ('"iso"', '"seconds since soon"', "'soon' is no date"),
         ('{ column = "Depth", unit = "m" }', "3", "columns.depth is no table; known in it: column, unit"),
         ("[file]", "[file]\nskip_lines = -1", "file.skip_lines = -1"),
+        ('unit = "deg"', 'unit = "deg", scale = 0', "columns.pitch.scale = 0: a number other than 0"),
+        ('unit = "deg"', 'unit = "deg", scale = nan', "columns.pitch.scale = nan"),
+        ('{ column = "p", unit = "deg" }', "3", "columns.pitch is no table"),
         ("[time]", "[time", "is not valid TOML"),
     ],
 )

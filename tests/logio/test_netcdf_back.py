@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import cftime
 import netCDF4
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from glidercli.log import Channel, Event, Log
 from glidercli.logio import read, write
 from glidercli.logio.netcdf.times import ticks, zero_and_unit
 from glidercli.logio.own.netcdf_back import read_own_netcdf, read_own_netcdf_log
+from glidercli.logio.records import NO_TIME
 
 DAY = 86_400_000_000_000
 
@@ -182,6 +184,19 @@ def test_no_channel_and_empty_channels_come_back(tmp_path: Path) -> None:
 )
 def test_times_of_any_unit_are_exact(units: str, value: float, time: str) -> None:
     assert ticks(np.array([value]), *zero_and_unit(units)).astype("datetime64[ns]")[0] == np.datetime64(time, "ns")
+
+
+@pytest.mark.parametrize("calendar", ["standard", "proleptic_gregorian"])
+@pytest.mark.parametrize("units", ["days since 0001-01-01", "days since 1582-10-04", "days since 1582-10-15"])
+def test_times_since_long_ago_are_those_of_cftime(units: str, calendar: str) -> None:
+    """The standard calendar of CF is Julian before 1582-10-15: two days off in the year 1."""
+    days = float(cftime.date2num(cftime.datetime(2019, 6, 20, 12, calendar=calendar), units, calendar))
+    for values in (np.array([days, np.nan, 1e300]), np.array([int(days), 0, 2**62])):
+        found = ticks(values, *zero_and_unit(units, calendar))
+        told = cftime.num2date(values[0], units, calendar)
+        assert found.astype("datetime64[ns]")[0] == np.datetime64(told.isoformat(), "ns")
+        assert (found[1:] == NO_TIME).all()
+    assert ticks(np.array([1.0]), *zero_and_unit(units.replace("days", "ns"), calendar))[0] == NO_TIME
 
 
 @pytest.mark.parametrize("units", ["seconds", "fortnights since 2000-01-01", "seconds since soon", ""])

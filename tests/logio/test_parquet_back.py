@@ -90,6 +90,7 @@ def test_texts_and_seconds_are_times_too(tmp_path: Path, texts: bool) -> None:
         ("depth_m", ["a", "b", "c"], "depth_m is a column of"),
         ("phase", ["dive", None, "glide"], "row 3: phase = 'glide'; allowed: surface, dive, climb, hover"),
         ("time_utc", ["soon", "2020-01-01", "2020-01-02"], "row 1: the time cannot be read"),
+        ("time_utc", ["9999-01-01", "2020-01-01", "2020-01-02"], "row 1: the time cannot be read"),  # no 1815
         ("time_utc", ["2020-01-03", "2020-01-01", "2020-01-02"], "row 2: the time does not increase"),
         ("origin", ["seen", "seen", "seen"], "line 1: origin = 'seen'"),
     ],

@@ -6,10 +6,14 @@ from glidercli.log import Log
 from glidercli.logio.derived.motion import with_motion
 from glidercli.logio.derived.seawater import with_seawater
 from glidercli.logio.derived.track import with_track
+from glidercli.logio.whereabouts import Whereabouts
 
 __all__ = ["with_derived"]
 
 
-def with_derived(log: Log) -> Log:
-    """The log with what can be had and is not there: depth, vertical speed, phase, salinity, density, track."""
-    return with_track(with_seawater(with_motion(log)))
+def with_derived(log: Log, near: Whereabouts | None = None) -> Log:
+    """The log with what can be had and is not there: depth, vertical speed, phase, salinity, density, track.
+
+    near : positions that are no fixes, for the density of a log without fixes.
+    """
+    return with_track(with_seawater(with_motion(log), near))

@@ -6,21 +6,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.log import Channel, Log
+from glidercli.logio.whereabouts import Whereabouts
 from glidercli.units import DBAR
 
-__all__ = ["with_seawater"]
+__all__ = ["NEAR", "with_seawater"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
 
+NEAR = ("near_latitude_deg", "near_longitude_deg")
+"""Metadata of a log without fixes: roughly where it was."""
 
 FARTHEST = 30 * 86400 * 10**9
 """ns from the nearest fix, beyond which no position is taken: of a clock that is a year off none is known."""
 
 
-def with_seawater(log: Log) -> Log:
-    """The log with salinity and density where it lacks them and has what they follow from."""
-    notes = {}
+def with_seawater(log: Log, near: Whereabouts | None = None) -> Log:
+    """The log with salinity and density where it lacks them and has what they follow from.
+
+    near : positions that are no fixes, used where the log has no fix; the metadata near_latitude_deg and
+    near_longitude_deg then tell their middle.
+    """
+    notes: dict[str, str] = {}
+    if near is not None and not {"latitude", "longitude"} <= log.channels.keys():
+        notes |= dict(zip(NEAR, (repr(round(degrees, 6)) for degrees in near.middle), strict=True))
     if "salinity" not in log and {"conductivity", "temperature", "pressure"} <= log.channels.keys():
         times, (c, t, p) = log.together("conductivity", "temperature", "pressure")
         salinity = _salinity(c, t, p)
@@ -31,7 +40,7 @@ def with_seawater(log: Log) -> Log:
             )
     if "density" not in log and {"salinity", "temperature", "pressure"} <= log.channels.keys():
         times, (s, t, p) = log.together("salinity", "temperature", "pressure")
-        density, place = _density(log, times, s, t, p)
+        density, place = _density(log, near, times, s, t, p)
         log, told = _with(log, "density", times, density)
         if told:
             notes["density_note"] = f"derived: TEOS-10, in situ, {place} (gsw.rho_t_exact)"
@@ -53,21 +62,22 @@ def _salinity(c: Array, t: Array, p: Array) -> Array:
     return np.asarray(gsw.SP_from_C(c * 10.0, t, np.maximum(p / DBAR, 0.0)))  # mS/cm
 
 
-def _density(log: Log, times: Times, s: Array, t: Array, p: Array) -> tuple[Array, str]:
+def _density(log: Log, near: Whereabouts | None, times: Times, s: Array, t: Array, p: Array) -> tuple[Array, str]:
     """In-situ density, kg/m3, and with which salinity."""
     import gsw
 
     p_dbar = np.maximum(p / DBAR, 0.0)
-    if "longitude" in log and "latitude" in log:
-        fixed, latitudes = log["latitude"].time_ns, log["latitude"].values
-        longitude = np.interp(times, log["longitude"].time_ns, np.unwrap(log["longitude"].values, period=360.0))
-        latitude = np.interp(times, fixed, latitudes)
-        far = _distance(times, fixed) > FARTHEST
+    fixed, (latitude, longitude) = log.together("latitude", "longitude")
+    places = Whereabouts(fixed, latitude, longitude) if len(fixed) else near
+    if places is not None:
+        latitude, longitude = places.at(times)
+        far = _distance(times, places.time_ns) > FARTHEST
         absolute = np.where(far, gsw.SR_from_SP(s), gsw.SA_from_SP(s, p_dbar, np.mod(longitude, 360.0), latitude))
-        place = "absolute salinity at positions between the fixes"
+        where = "between the fixes" if len(fixed) else "that are no fixes: interpolated or reckoned by the vehicle"
+        told = f"absolute salinity at positions {where}"
         if far.any():
-            place += f", reference salinity for {int(far.sum())} samples more than 30 days from any fix"
-        return gsw.rho_t_exact(absolute, t, p_dbar), place
+            told += f", reference salinity for {int(far.sum())} samples more than 30 days from any of them"
+        return gsw.rho_t_exact(absolute, t, p_dbar), told
     # no place is known, and none is made up
     return gsw.rho_t_exact(gsw.SR_from_SP(s), t, p_dbar), "reference salinity, no position is known"
 

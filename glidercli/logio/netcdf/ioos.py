@@ -5,8 +5,9 @@ Names, dimension and flags: IOOS_Glider_NetCDF_v2.0 and v3.0 (ioos/ioosngdac, nc
     time, depth, pressure, temperature, conductivity, salinity, density   by row; units as each variable says
     pitch, roll, heading            where a group adds them
     lat, lon (latitude, longitude)  of each row: "interpolated latitude at each point in the time-series". They count as
-                                    fixes only where flags tell them from interpolated ones (lat_qc 1 or 2 beside 8)
-    profile_lat, profile_lon        the middle of the profile: not used
+                                    fixes only where flags tell them from interpolated ones (lat_qc 1 or 2 beside 8);
+                                    else these, or the middle of the profile, are the place for absolute salinity alone
+    profile_lat, profile_lon        the middle of the profile
     u, v at time_uv                 depth-averaged current, an estimate over one or more dives: told as an event, for
                                     it is not the current where the glider was
 """
@@ -22,7 +23,7 @@ from glidercli.errors import InputError
 from glidercli.log import Event
 from glidercli.logio.netcdf.pyglider import is_pyglider, read_with_attitude
 from glidercli.logio.netcdf.times import times_of
-from glidercli.logio.netcdf.trajectory import Positions, Rows, part_of, unread_in
+from glidercli.logio.netcdf.trajectory import Positions, Rows, near_of, part_of, unread_in
 from glidercli.logio.netcdf.variables import attributes, flags_of, text_of, values_of
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import NO_TIME
@@ -39,6 +40,7 @@ NAMES = {
     )
 }  # fmt: skip
 PLACES = (("lat", "lon"), ("latitude", "longitude"))
+MIDDLE = ("profile_lat", "profile_lon")
 
 
 def _is_ioos(file: Any) -> bool:
@@ -69,8 +71,10 @@ def read_ioos(path: Path, aids: Aids = Aids()) -> Part:
         found = read_with_attitude(file, DIMENSION, NAMES, metadata, warnings)
         time_ns = times_of(path, file[DIMENSION])
         positions = _positions(file, time_ns, count, warnings)
+        near = next((place for pair in PLACES if (place := near_of(file, time_ns, pair)) is not None), None)
+        near = near or near_of(file, time_ns[:1], MIDDLE)
         unread = unread_in(file, DIMENSION, found)
-        rows = Rows(time_ns, found, positions, metadata, warnings, _current(path, file), unread)
+        rows = Rows(time_ns, found, positions, metadata, warnings, _current(path, file), near, unread)
         profile = _profile(file)
     trajectory = metadata.get("trajectory", "")
     return part_of(path, "ioos", rows, (f"ioos.{trajectory}.{profile}",) if trajectory and profile else ())

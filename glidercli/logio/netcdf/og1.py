@@ -4,7 +4,8 @@ Names, dimension and meanings: OceanGliders format v1.0.0 (OceanGlidersCommunity
 OG_Format-v1.0.0.adoc); PHASE: its vocabularyCollection/phase.md; GLIDER_PITCH and the like: its examples of 2024.
 
     TIME, DEPTH, PRES, TEMP, CNDC, PSAL, PITCH, ROLL, HEADING ...   by row; units as each variable says
-    LATITUDE, LONGITUDE             of each measurement: interpolated between fixes, so not used
+    LATITUDE, LONGITUDE             of each measurement: interpolated between fixes: the place for absolute
+                                    salinity where there is no fix, and no more
     TIME_GPS, LATITUDE_GPS, LONGITUDE_GPS   the fixes; a file without TIME_GPS has their times in TIME
     PHASE                           1 ascent, 2 descent, 3 surfacing, 4 parking; others are no phase of flight here
 
@@ -23,7 +24,7 @@ from glidercli.channels import PHASES
 from glidercli.errors import InputError
 from glidercli.logio.netcdf.pyglider import read_with_attitude
 from glidercli.logio.netcdf.times import times_of
-from glidercli.logio.netcdf.trajectory import Positions, Rows, part_of, unread_in
+from glidercli.logio.netcdf.trajectory import Positions, Rows, near_of, part_of, unread_in
 from glidercli.logio.netcdf.variables import Values, attributes, text_of, values_of
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import NO_TIME
@@ -70,9 +71,10 @@ def read_og1(path: Path, aids: Aids = Aids()) -> Part:
         if "PHASE" in file.variables and file["PHASE"].dimensions == (DIMENSION,):
             found["phase"] = _phase(file, warnings)
         _tell_of_positions(file, count, warnings)
-        positions = _positions(path, file, warnings)
+        time_ns = times_of(path, file["TIME"])
+        near = near_of(file, time_ns, ("LATITUDE", "LONGITUDE"))
         unread = unread_in(file, DIMENSION, found)
-        rows = Rows(times_of(path, file["TIME"]), found, positions, metadata, warnings, unread=unread)
+        rows = Rows(time_ns, found, _positions(path, file, warnings), metadata, warnings, near=near, unread=unread)
         trajectory = text_of(file, "TRAJECTORY")
     return part_of(path, "og1", rows, (f"og1.{trajectory}",) if trajectory else ())
 

@@ -31,8 +31,10 @@ FIRST, LAST = (int(np.datetime64(year, "ns").astype(np.int64)) for year in ("170
 """Times allowed, ns: 64 bits hold little more."""
 
 
-def zero_and_unit(text: str) -> tuple[int, int]:
-    """Of "seconds since 1970-01-01T00:00:00Z": the date as UTC ns, and the ns in a unit.
+def zero_and_unit(text: str, calendar: str = "proleptic_gregorian") -> tuple[int, int]:
+    """Of "seconds since 1970-01-01T00:00:00Z": the date as UTC ns since 1970, of any size, and the ns in a unit.
+
+    calendar : of CALENDARS; that of CF, "standard", is Julian before 1582-10-15.
 
     Raises ValueError, with what is allowed, where the text is of another form.
     """
@@ -44,8 +46,8 @@ def zero_and_unit(text: str) -> tuple[int, int]:
     fraction = re.search(r":\d\d\.(\d+)", parts[2])
     whole = parts[2].replace(f".{fraction[1]}", "", 1) if fraction else parts[2]
     try:
-        date = cftime.num2date(0, f"seconds since {whole}", "proleptic_gregorian")
-        zero = int(np.datetime64(date.isoformat(), "s").astype(np.int64)) * 10**9
+        date = cftime.num2date(0, f"seconds since {whole}", calendar)
+        zero = int(cftime.date2num(date, "seconds since 1970-01-01", calendar)) * 10**9
     except (ValueError, OverflowError, TypeError):
         raise ValueError(f"{parts[2]!r} is no date; needed is like 1970-01-01T00:00:00Z") from None
     return zero + (int(fraction[1][:9].ljust(9, "0")) if fraction else 0), UNITS[parts[1].lower()]
@@ -58,16 +60,19 @@ def ticks(values: NDArray[Any], zero_ns: int, unit_ns: int) -> Times:
     stored number itself is: 2.4e-7 s for seconds since 1970.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        rough = values.astype(np.float64) * unit_ns + zero_ns
+        rough = values.astype(np.float64) * unit_ns + float(zero_ns)
     told = (rough > FIRST) & (rough < LAST)  # false where it is NaN
     time_ns = np.full(len(values), NO_TIME)
+    since, zero = divmod(zero_ns, unit_ns)  # units from 1970 to the zero, which may be more ns than 64 bits hold
+    if abs(since) >= 1 << 62:
+        return time_ns
     good = values[told]
     if good.dtype.kind in "iu":
-        time_ns[told] = zero_ns + good.astype(np.int64) * unit_ns
+        time_ns[told] = zero + (good.astype(np.int64) + since) * unit_ns
     else:
         whole = np.floor(good.astype(np.float64))
         rest = np.rint((good - whole) * unit_ns).astype(np.int64)
-        time_ns[told] = zero_ns + whole.astype(np.int64) * unit_ns + rest
+        time_ns[told] = zero + (whole.astype(np.int64) + since) * unit_ns + rest
     return time_ns
 
 
@@ -81,7 +86,7 @@ def times_of(path: Path, variable: Any) -> Times:
     if variable.dtype == str or variable.dtype.kind not in "iuf" or len(variable.dimensions) > 1:
         raise InputError(path, f"{name} is no column of numbers; times of records are needed")
     try:
-        zero_ns, unit_ns = zero_and_unit(str(told.get("units", "")))
+        zero_ns, unit_ns = zero_and_unit(str(told.get("units", "")), calendar)
     except ValueError as fault:
         raise InputError(path, f"{name}: {fault}") from None
     stored = np.atleast_1d(variable[...])

@@ -13,14 +13,15 @@ from numpy.typing import NDArray
 
 from glidercli.log import Channel, Event, Log
 from glidercli.logio.netcdf.fixes import fixes
-from glidercli.logio.netcdf.variables import COMPUTED, Values, attributes, values_of
+from glidercli.logio.netcdf.variables import BAD_PLACE, COMPUTED, Values, attributes, values_of
 from glidercli.logio.plausible import quantity_of
 from glidercli.logio.quantities import channel_of, submerged
 from glidercli.logio.reader import Part
 from glidercli.logio.records import sampled, usable
 from glidercli.logio.report import FileReport
+from glidercli.logio.whereabouts import Whereabouts, whereabouts
 
-__all__ = ["Positions", "Rows", "found_in", "part_of", "unread_in"]
+__all__ = ["Positions", "Rows", "found_in", "near_of", "part_of", "unread_in"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -47,7 +48,10 @@ class Positions:
 
 @dataclasses.dataclass(frozen=True)
 class Rows:
-    """The rows of a file: their times, values by channel, positions, and what else is told of them."""
+    """The rows of a file: their times, values by channel, positions, and what else is told of them.
+
+    near : positions that are no fixes, for absolute salinity alone.
+    """
 
     time_ns: Times
     found: Mapping[str, Values]
@@ -55,6 +59,7 @@ class Rows:
     metadata: Mapping[str, str]
     warnings: list[str]
     events: tuple[Event, ...] = ()
+    near: Whereabouts | None = None
     unread: tuple[str, ...] = ()
 
 
@@ -114,6 +119,20 @@ def _holds_number(stored: NDArray[Any], told: Mapping[str, Any]) -> bool:
     return not missing.all()
 
 
+def near_of(file: Any, time_ns: Times, names: tuple[str, str]) -> Whereabouts | None:
+    """Positions of two variables, latitude and longitude, that need be no fixes; None where they cannot be read.
+
+    time_ns : (n,), of their rows.
+    """
+    if not set(names) <= file.variables.keys() or any(file[name].size != len(time_ns) for name in names):
+        return None
+    pair = zip(names, ("latitude", "longitude"), strict=True)
+    latitude, longitude = (values_of(file, name, channel, [], BAD_PLACE) for name, channel in pair)
+    if latitude is None or longitude is None:
+        return None
+    return whereabouts(time_ns, latitude.values, longitude.values)
+
+
 def part_of(path: Path, format: str, rows: Rows, holds: tuple[str, ...] = ()) -> Part:
     """The Log of the rows, and the account. A row of a position alone is judged apart from rows of measurements."""
     warnings = list(rows.warnings)
@@ -153,7 +172,8 @@ def part_of(path: Path, format: str, rows: Rows, holds: tuple[str, ...] = ()) ->
     log = Log({n: c for n, c in channels.items() if len(c)}, "measured", dict(rows.metadata), rows.events)
     reasons = tuple(sorted((reason, count) for reason, count in dropped.items() if count))
     report = FileReport(path, format, len(rows.time_ns), int(kept.sum()), reasons, tuple(warnings))
-    return Part(log, report, np.sort(record_ns[kept]), holds=holds, fullness=int(kept.sum()), unread=rows.unread)
+    near, unread = rows.near, rows.unread
+    return Part(log, report, np.sort(record_ns[kept]), holds=holds, fullness=int(kept.sum()), near=near, unread=unread)
 
 
 def _based(computed: Channel, channels: Mapping[str, Channel], warnings: list[str]) -> Channel:

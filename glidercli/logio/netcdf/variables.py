@@ -7,6 +7,7 @@ good (QARTOD: not evaluated), 3 probably bad or suspect, 4 bad, 5 changed, 6 and
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,11 +16,13 @@ from numpy.typing import NDArray
 from glidercli.log import Origin
 from glidercli.logio.named_units import conversion, units_of
 
-__all__ = ["COMPUTED", "Values", "attributes", "flags_of", "text_of", "values_of"]
+__all__ = ["BAD_PLACE", "COMPUTED", "Values", "attributes", "flags_of", "text_of", "values_of"]
 
 Array = NDArray[np.float64]
 
 BAD = {3: "probably bad", 4: "bad", 6: "unused flag", 7: "unused flag", 8: "interpolated", 9: "missing"}
+BAD_PLACE = {flag: meaning for flag, meaning in BAD.items() if flag != 8}
+"""Of a position that need not be a fix."""
 CHANGED = 5
 LARGEST = 1e200
 """Larger numbers are impossible for any channel, and products with them stay numbers."""
@@ -73,10 +76,10 @@ def flags_of(file: Any, name: str) -> NDArray[np.int64] | None:
     return np.where((numbers >= 0) & (numbers <= 9), numbers, -1).astype(np.int64)
 
 
-def values_of(file: Any, name: str, channel: str, warnings: list[str]) -> Values | None:
+def values_of(file: Any, name: str, channel: str, warnings: list[str], bad: Mapping[int, str] = BAD) -> Values | None:
     """The values of a variable as a channel; None, with a warning, where its unit is not known.
 
-    What is left out, apart from blanks, is counted in a warning.
+    What is left out, apart from blanks, is counted in a warning. bad : flags of what is left out, and their meanings.
     """
     variable = file[name]
     told = attributes(variable)
@@ -94,7 +97,7 @@ def values_of(file: Any, name: str, channel: str, warnings: list[str]) -> Values
     good &= ~_counted(name, good & ~_valid(stored, told), "outside the file's own valid range left out", warnings)
     flags = flags_of(file, name)
     if flags is not None:
-        for flag, meaning in BAD.items():
+        for flag, meaning in bad.items():
             why = f"flagged {flag} ({meaning}) left out"
             good &= ~_counted(name, good & (flags == flag), why, warnings)
         _counted(name, good & (flags == CHANGED), f"flagged {CHANGED} (changed by its publisher) kept", warnings)

@@ -28,9 +28,10 @@ from numpy.typing import NDArray
 from glidercli.channels import PHASES
 from glidercli.log import Channel
 from glidercli.logio.quantities import Quantity, channels_from, degrees, without_sentinels
+from glidercli.logio.whereabouts import Whereabouts, whereabouts
 from glidercli.units import CM3, DBAR, DEGREE, MILLIMETRE
 
-__all__ = ["NOTES", "SENTINELS", "USED", "channels_of"]
+__all__ = ["NOTES", "SENTINELS", "USED", "channels_of", "near_of"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -122,3 +123,12 @@ def _fixes(time_ns: Times, used: Mapping[str, Array], warnings: list[str]) -> li
     if others:
         warnings.append(f"Lat, Lon: {others} values left out that are no new fix at the surface, {int(fix.sum())} kept")
     return [Channel("latitude", time_ns[fix], latitude[fix]), Channel("longitude", time_ns[fix], longitude[fix])]
+
+
+def near_of(time_ns: Times, table: Mapping[str, Array]) -> Whereabouts | None:
+    """Where the vehicle took itself to be, by ``channels_of``'s arguments; None where the file does not tell."""
+    if not {"Lat", "Lon"} <= table.keys():
+        return None
+    ddmm = [np.where(np.isin(table[name], SENTINELS), np.nan, table[name]) for name in ("Lat", "Lon")]
+    latitude, longitude = (degrees(value) for value in ddmm)
+    return whereabouts(time_ns, latitude, longitude)

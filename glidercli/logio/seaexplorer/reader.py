@@ -21,7 +21,7 @@ from glidercli.log import Log
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import sampled, to_ns, usable
 from glidercli.logio.report import FileReport
-from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, USED, channels_of
+from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, USED, channels_of, near_of
 
 __all__ = ["is_seaexplorer", "read_seaexplorer"]
 
@@ -87,6 +87,7 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
         fullness=int(recording is not None and recording["kind"].lower() == "raw"),
         partner=_partner(recording),
         unread=unread,
+        near=near_of(time_ns[good], table),
     )
 
 

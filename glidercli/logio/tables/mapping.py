@@ -24,7 +24,7 @@ import datetime
 from collections.abc import Mapping as MappingOf
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import ConfigDict, Field, field_validator, model_validator
+from pydantic import AfterValidator, ConfigDict, Field, field_validator, model_validator
 from pydantic.dataclasses import dataclass
 
 from glidercli.channels import CHANNELS, PHASES
@@ -32,10 +32,18 @@ from glidercli.log import Origin
 from glidercli.logio.named_units import conversion, units_of
 from glidercli.logio.netcdf.times import zero_and_unit
 
-__all__ = ["NUMBERS", "Column", "File", "Mapping", "Missing", "Time"]
+__all__ = ["NUMBERS", "Column", "File", "Mapping", "Missing", "Time", "column_faults", "time_faults"]
 
 _CONFIG = ConfigDict(extra="forbid", strict=False)
 _Number = Annotated[float, Field(ge=-1e12, le=1e12, allow_inf_nan=False, strict=True)]
+
+
+def _not_zero(number: float) -> float:
+    if number == 0.0:
+        raise ValueError("a number other than 0 is needed: all values would be the offset")
+    return number
+
+
 NUMBERS = ("unix", "unix_ms", "matlab")
 """Formats of times that are numbers, beside "UNIT since DATE"."""
 
@@ -51,10 +59,8 @@ class Time:
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if (self.column is None) == (self.columns is None):
-            raise ValueError("needs one of column and columns")
-        if self.columns is not None and not self.columns:
-            raise ValueError("columns is an empty list")
+        if faults := time_faults(vars(self)):
+            raise ValueError("; ".join(faults))
         return self
 
     @field_validator("format")
@@ -85,7 +91,7 @@ class Column:
 
     column: str
     unit: str | None = None
-    scale: _Number = 1.0
+    scale: Annotated[_Number, AfterValidator(_not_zero)] = 1.0
     offset: _Number = 0.0
     phases: dict[str, Literal["surface", "dive", "climb", "hover", "inflection"]] | None = None
     """Words of the table by phase; default: the phases' own."""
@@ -135,17 +141,31 @@ class Mapping:
     @field_validator("columns")
     @classmethod
     def _check(cls, columns: MappingOf[str, Column]) -> Any:
-        faults = [] if columns else ["holds no channel"]
-        for channel, column in columns.items():
-            if channel not in CHANNELS:
-                faults.append(f"{channel} is no channel; channels are {', '.join(CHANNELS)}")
-            elif channel == "phase":
-                faults += [] if column.unit is None else ["phase has no unit; its cells are words"]
-            elif column.unit is None or conversion(column.unit, channel) is None:
-                said = "has no unit" if column.unit is None else f"unit = {column.unit!r}"
-                faults.append(f"{channel}: {said}, allowed: {', '.join(units_of(channel))}")
-            if column.phases is not None and channel != "phase":
-                faults.append(f"{channel}: phases is for the channel phase alone ({', '.join(PHASES)})")
-        if faults:
+        if faults := column_faults({channel: vars(column) for channel, column in columns.items()}):
             raise ValueError("; ".join(faults))
         return columns
+
+
+def time_faults(time: MappingOf[str, Any]) -> list[str]:
+    """What is wrong with the keys of [time] together."""
+    if (time.get("column") is None) == (time.get("columns") is None):
+        return ["needs one of column and columns"]
+    return ["columns is an empty list"] if time.get("columns") in ((), []) else []
+
+
+def column_faults(columns: MappingOf[str, Any]) -> list[str]:
+    """What is wrong with channels and their units; what is no table or text is the business of the types."""
+    faults = [] if columns else ["holds no channel"]
+    for channel, column in columns.items():
+        told = column if isinstance(column, dict) else {"unit": 0}
+        unit = told.get("unit")
+        if channel not in CHANNELS:
+            faults.append(f"{channel} is no channel; channels are {', '.join(CHANNELS)}")
+        elif channel == "phase":
+            faults += [] if unit is None else ["phase has no unit; its cells are words"]
+        elif unit is None or (isinstance(unit, str) and conversion(unit, channel) is None):
+            said = "has no unit" if unit is None else f"unit = {unit!r}"
+            faults.append(f"{channel}: {said}, allowed: {', '.join(units_of(channel))}")
+        if told.get("phases") is not None and channel != "phase":
+            faults.append(f"{channel}: phases is for the channel phase alone ({', '.join(PHASES)})")
+    return faults

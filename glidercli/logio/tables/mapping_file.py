@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from glidercli.errors import InputError
 from glidercli.files import read_toml
-from glidercli.logio.tables.mapping import Column, File, Mapping, Missing, Time
+from glidercli.logio.tables.mapping import Column, File, Mapping, Missing, Time, column_faults, time_faults
 
 __all__ = ["load_mapping", "mapping_beside"]
 
@@ -47,7 +48,18 @@ def load_mapping(path: Path) -> Mapping:
     try:
         return TypeAdapter(Mapping).validate_python(given)
     except ValidationError as error:
-        raise InputError.of_all(path, [_fault(item) for item in error.errors(include_url=False)]) from None
+        items = error.errors(include_url=False)
+        raise InputError.of_all(path, [*map(_fault, items), *_untold(given, items)]) from None
+
+
+def _untold(given: dict[str, Any], items: Sequence[Any]) -> list[str]:
+    """The faults of keys together, which are not looked for where one of the keys has a fault of its own."""
+    told = {item["loc"] for item in items}
+    found = []
+    for table, faults_of in (("time", time_faults), ("columns", column_faults)):
+        if isinstance(given.get(table), dict) and (table,) not in told:
+            found += [f"{table}: {fault}" for fault in faults_of(given[table])]
+    return found
 
 
 def _fault(item: Any) -> str:

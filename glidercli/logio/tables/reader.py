@@ -53,6 +53,7 @@ def read_table(path: Path, aids: Aids = Aids()) -> Part:
     from glidercli.logio.tables.cells import read_cells
     from glidercli.logio.tables.mapping_file import load_mapping, mapping_beside
     from glidercli.logio.tables.times import times_of
+    from glidercli.logio.whereabouts import whereabouts
 
     found = aids.columns or mapping_beside(path)
     if found is None:
@@ -73,7 +74,9 @@ def read_table(path: Path, aids: Aids = Aids()) -> Part:
         )
         if len(made):
             channels[channel] = made
+    near = None
     if origin == "measured" and {"latitude", "longitude"} <= values.keys():
+        near = whereabouts(time_ns[good], values["latitude"][good], values["longitude"][good])
         places = (values["latitude"][good], values["longitude"][good])
         at = fixes(time_ns[good], *places, channels.get("depth"), None)
         if others := int(np.isfinite(places).all(axis=0).sum()) - len(at):
@@ -98,7 +101,7 @@ def read_table(path: Path, aids: Aids = Aids()) -> Part:
         path, "table", len(time_ns) + cells.cut, int(kept.sum()), tuple(sorted(dropped.items())), tuple(warnings),
         beside=(found,),
     )  # fmt: skip
-    return Part(Log(channels, origin, metadata), report, time_ns[good][kept], unread=cells.others)
+    return Part(Log(channels, origin, metadata), report, time_ns[good][kept], unread=cells.others, near=near)
 
 
 def _any(values: MappingOf[str, Array]) -> Array:

@@ -261,6 +261,9 @@ def test_a_row_that_lacks_a_value_is_left_out_and_counted(write):
 def test_a_place_told_once_is_the_casts(write):
     cast = read_ctd(write("cast.csv", TABLE.replace("9,35.1,11,142", "9,35.1,,nan")))
     assert (cast.latitude, cast.longitude, len(cast.depth), cast.dropped) == (11.0, 142.0, 3, ())
+    table = TABLE.replace("1,20,35,11,142", "1,20,35,11,179.9").replace("15,35.2,11,142", "15,35.2,11,")
+    cast = read_ctd(write("pacific.csv", table.replace("9,35.1,11,142", "9,35.1,11,-179.9")))
+    assert abs(cast.longitude) == pytest.approx(180.0)  # not at Greenwich
     cast = read_ctd(write("nowhere.csv", TABLE.replace(",11,142\n", ",,\n")))
     assert (cast.latitude, cast.longitude) == (None, None)
 

@@ -248,3 +248,16 @@ def test_the_dives_of_a_seaexplorer(pytestconfig):
     for cast in deep:
         apart = np.interp(z[below], cast.depth, cast.temperature) - t.values[below]
         assert np.abs(apart).max() < 0.5
+
+
+def test_casts_of_a_log_that_crosses_180_degrees_are_there() -> None:
+    n = 400
+    times = np.arange(n) * 10 * 10**9
+    depth = 100.0 * (1.0 - np.abs(np.linspace(-1.0, 1.0, n)))
+    columns = {"depth": depth, "temperature": np.full(n, 10.0), "salinity": np.full(n, 35.0)}
+    channels = {name: Channel(name, times, values) for name, values in columns.items()}
+    fixed = times[[0, 100, 300, 399]]
+    channels["latitude"] = Channel("latitude", fixed, np.full(4, -20.0))
+    channels["longitude"] = Channel("longitude", fixed, np.array([179.9, -179.9, 179.9, -179.9]))
+    for cast in casts_of_log(Log(channels, "measured")):
+        assert abs(cast.longitude) == pytest.approx(180.0, abs=0.11)
