@@ -117,14 +117,14 @@ def atomic(path: Path, force: bool) -> Iterator[Path]:
 
 
 def leftovers(path: Path) -> list[Path]:
-    """Parts of this output that processes left which were killed while they wrote it."""
-    target = path.resolve()
-    start, end = f".{target.stem}.part-", target.suffix
+    """Parts of this output that processes left which were killed while they wrote it, and of a table's metadata."""
     left = []
-    for file in sorted(target.parent.iterdir()) if target.parent.is_dir() else ():
-        number = file.name.removeprefix(start).removesuffix(end)
-        if file.name == f"{start}{number}{end}" and number.isdigit() and not _runs(int(number)):
-            left.append(file)
+    for target in (file.resolve() for file in _written([path])):
+        start, end = f".{target.stem}.part-", target.suffix
+        for file in sorted(target.parent.iterdir()) if target.parent.is_dir() else ():
+            number = file.name.removeprefix(start).removesuffix(end)
+            if file.name == f"{start}{number}{end}" and number.isdigit() and not _runs(int(number)):
+                left.append(file)
     return left
 
 

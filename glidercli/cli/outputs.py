@@ -20,10 +20,10 @@ __all__ = ["Sink", "check_log_outputs", "log_sink", "write_log"]
 _STDOUT = Path("-")
 RECOVERY = {
     ".mcap": "`pymcap-cli recover {part} -o FILE.mcap` brings back what stands in whole chunks",
-    ".rrd": "`rerun {part}` shows what is there, without panels",
+    ".rrd": "`rerun rrd merge {part} -o FILE.rrd` brings back what stands in whole chunks, without panels",
     ".csv": "all but its last line is good",
 }
-"""What can be done with a part of an output, by its ending."""
+"""What can be done with a part of an output, by its ending; of others nothing."""
 
 
 def check_log_outputs(paths: Sequence[Path], force: bool, json: bool, quiet: bool, pictures: bool = False) -> None:
@@ -42,8 +42,8 @@ def check_log_outputs(paths: Sequence[Path], force: bool, json: bool, quiet: boo
     check_outputs(paths, SUFFIXES + PICTURES if pictures else SUFFIXES, force)
     for path in paths:
         for part in leftovers(path) if path != _STDOUT else ():
-            how = RECOVERY.get(path.suffix.lower(), "cannot be read")
-            warn([f"{part}: left by a run that was killed; {how.format(part=part)}; remove it then"], quiet)
+            how = RECOVERY.get(part.suffix.lower(), "it cannot be read").format(part=part)
+            warn([f"{part}: left by a run that was killed; {how}; it may be removed"], quiet)
 
 
 def write_log(log: Log, paths: Sequence[Path], force: bool, quiet: bool) -> None:

@@ -228,6 +228,15 @@ def test_faults_of_the_sensor_list_are_named(tmp_path: Path, old: bytes, new: by
     assert words in str(caught.value)
 
 
+def test_a_list_without_checksum_is_checked_line_by_line(tmp_path: Path) -> None:
+    """Lines of sensors that are not in the cycles, too."""
+    data = made(NAVIGATION, dive(), unused=["m_air_pump"], sensor_list_crc="").data
+    assert read_slocum(written(tmp_path / "a.dbd", data)).report.error is None
+    data = data.replace(b"4 m_air_pump", b"\x07 m_air_pump")
+    with pytest.raises(InputError, match=r"sensor list: line \d+ is 's: F .*m_air_pump nodim'"):
+        read_slocum(written(tmp_path / "a.dbd", data))
+
+
 def test_known_values_show_damage(tmp_path: Path) -> None:
     data = bytearray(WHOLE.data)
     data[WHOLE.cycles[0] - 3] ^= 1

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
-from glidercli.logio.records import NO_TIME
+from glidercli.logio.records import NO_TIME, YEARS
 
 __all__ = ["ticks", "times_of", "zero_and_unit"]
 
@@ -27,7 +27,7 @@ UNITS = {
 }  # fmt: skip
 """ns in a unit, by the names that UDUNITS knows them by."""
 CALENDARS = ("standard", "gregorian", "proleptic_gregorian")
-FIRST, LAST = (int(np.datetime64(year, "ns").astype(np.int64)) for year in ("1700", "2200"))
+FIRST, LAST = (int(np.datetime64(year, "ns").astype(np.int64)) for year in YEARS)
 """Times allowed, ns: 64 bits hold little more."""
 
 

@@ -91,10 +91,10 @@ class Settled:
         rr.send_chunks(identified(self.chunks, self.key), recording=stream)
 
 
-def settle(path: Path, recording_id: str, key: str) -> str:
+def settle(path: Path, recording_id: str, key: str) -> None:
     """Put right what is left to chance in a file: ids of stores and of their frames, the order in the footer.
 
-    recording_id : that of the recording while it was written. Gives its id from the key.
+    recording_id : that of the recording while it was written; as much of the key takes its place.
 
     The file is a header of 12 bytes, then frames (kind and size, u64 each, then protobuf), then a trailer with place,
     size and xxh32 checksum of the footer. A frame of kind 1 names a store; kind 0 is the footer, one manifest a store;
@@ -126,7 +126,6 @@ def settle(path: Path, recording_id: str, key: str) -> str:
         file.seek(at)
         file.write(struct.pack("<QQ", 0, len(footer)) + footer + trailer)
         file.truncate()
-    return key[: len(recording_id)]
 
 
 def _ordered(manifest: bytes) -> bytes:

@@ -14,7 +14,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from glidercli.errors import InputError
-from glidercli.logio.slocum.sensor_lists import SensorList, checksum, sensor_list
+from glidercli.logio.slocum.sensor_lists import SensorList, check_lines, checksum, sensor_list
 
 __all__ = ["Header", "header_of"]
 
@@ -67,6 +67,8 @@ def header_of(path: Path, data: bytes, cache: Callable[[str], bytes]) -> Header:
             what = f"its sensor list has the checksum {checksum(text)}, sensor_list_crc is {crc}"
             raise InputError(path, f"header: {what}: the list is cut or damaged")
     try:
+        if not crc:
+            check_lines(text)
         listed = sensor_list(text)
     except ValueError as error:
         raise InputError(path, f"sensor list: {error}") from None

@@ -15,7 +15,7 @@ import zlib
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["FLOATING", "NEW", "SensorList", "checksum", "sensor_list"]
+__all__ = ["FLOATING", "NEW", "SensorList", "check_lines", "checksum", "sensor_list"]
 
 FLOATING, INTEGER = (4, 8), (1, 2)
 """Bytes of a value, by its kind."""
@@ -85,7 +85,8 @@ def checksum(text: bytes) -> str:
 def sensor_list(text: bytes) -> SensorList:
     """The list that a text holds. The files of a mission share one. Raises ValueError naming the line at fault.
 
-    Of the many sensors that are not in the cycles only the number is taken.
+    Of the many sensors that are not in the cycles only the number is taken: a checksum guards their lines, and where
+    there is none ``check_lines`` does.
     """
     lines = text.split(b"\n")
     used = [line for line in lines if line.startswith(b"s: T ")]
@@ -94,15 +95,17 @@ def sensor_list(text: bytes) -> SensorList:
     marks, _, numbers, places, sizes, names, units = (tuple(words[column::WORDS]) for column in range(WORDS))
     whole = len(used) + rest == len(lines) - 1 and text.endswith(b"\n") and len(words) == WORDS * len(used)
     if not (whole and set(marks) <= {"s:"} and set(sizes) <= set("1248") and "".join(numbers).isdigit()):
-        raise ValueError(_fault(text))
+        check_lines(text)
+        raise ValueError("none of its sensors is in the cycles")
     if places != tuple(map(str, range(len(used)))):
         raise ValueError("the places of its sensors are not 0, 1, 2 ... in order")
     return SensorList(names, units, tuple(map(int, sizes)), len(used) + rest)
 
 
-def _fault(text: bytes) -> str:
-    """Which line of a list is not as it should be."""
+def check_lines(text: bytes) -> None:
+    """Raise ValueError, naming the line, where one of a list is not as it should be."""
     lines = text.decode("latin-1").replace("\r\n", "\n").splitlines(keepends=True)
-    number = next((number for number, line in enumerate(lines) if not LINE.fullmatch(line)), 0)
-    shown = lines[number][:60].rstrip() if lines else ""
-    return f"line {number + 1} is {shown!r}; s: T index place bytes name unit is needed, bytes 1248"
+    for number, line in enumerate(lines, start=1):
+        if not LINE.fullmatch(line):
+            shown = line[:60].rstrip()
+            raise ValueError(f"line {number} is {shown!r}; s: T index place bytes name unit is needed, bytes 1248")
