@@ -22,6 +22,7 @@ def replay(
     start: Annotated[str | None, typer.Option(metavar="T", help="From: ISO 8601 UTC, or s since the start.")] = None,
     end: Annotated[str | None, typer.Option(metavar="T", help="To, not included: ISO 8601 UTC, or s.")] = None,
     strict: Annotated[bool, typer.Option("--strict", help="A file that cannot be read is a failure.")] = False,
+    attach: Annotated[bool, typer.Option("--attach", help="Put the files that were read into the .mcap.")] = False,
     output: Annotated[list[Path] | None, output_option(".mcap .rrd .nc .parquet .csv")] = None,
     force: Force = False,
     json: Json = False,
@@ -40,8 +41,8 @@ def replay(
     files = [path for path in outputs if path != Path("-")]
     with progress("reading", "files", quiet) as bar:
         played = play(
-            log, files, format=format, start=start, end=end, strict=strict, force=force, cache=cache, columns=columns,
-            workers=cores(), progress=bar.tell, stage=bar.stage,
+            log, files, format=format, start=start, end=end, strict=strict, force=force, attach=attach, cache=cache,
+            columns=columns, workers=cores(), progress=bar.tell, stage=bar.stage,
         )  # fmt: skip
     warn((f"{report.path}: {report.error}" for report in played.broken), quiet)
     for path in files:

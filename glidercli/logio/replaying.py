@@ -75,6 +75,7 @@ def replay(
     end: str | None = None,
     strict: bool = False,
     force: bool = False,
+    attach: bool = False,
     cache: str | Path | None = None,
     columns: str | Path | None = None,
     workers: int = 1,
@@ -88,10 +89,13 @@ def replay(
     paths : files, folders, globs. outputs : files; the ending picks the writer.
     format, cache, columns, workers : as for ``read``.
     start, end : ISO 8601 UTC, or seconds since the log's first sample; the part with start <= time < end is taken.
+    attach : whether the files that were read go into every .mcap; a UsageError where there is none.
     strict : a file that cannot be read, or not as a whole, is an InputError, and nothing is written.
     progress : is told the files read and the files to read. stage : is told what is done after that.
     """
     targets = [Path(path) for path in outputs]
+    if attach and not any(target.suffix.lower() == ".mcap" for target in targets):
+        raise UsageError("--attach puts the files into an .mcap; -o NAME.mcap is needed")
     check_outputs(targets, SUFFIXES, force)
     reading = read(paths, format, progress, cache=cache, columns=columns, workers=workers)
     log = reading.log
@@ -112,7 +116,7 @@ def replay(
     log = log.with_metadata(provenance=provenance_json(inputs=inputs, origin=log.origin))
     if stage is not None and targets:
         stage("writing")
-    write(log, *targets, force=force)
+    write(log, *targets, force=force, attach=list(inputs) if attach else ())
     return Replay(log, reading.files, tuple(targets))
 
 

@@ -28,14 +28,14 @@ SUFFIXES = (".mcap", ".rrd", *TABLES)
 """Endings that can be written."""
 
 
-def write(log: Log, *paths: str | Path, force: bool = False) -> None:
+def write(log: Log, *paths: str | Path, force: bool = False, attach: Sequence[Path] = ()) -> None:
     """Save a log; the ending picks the writer: .mcap (Foxglove, Lichtblick), .rrd (Rerun), .nc (CF), .parquet, .csv.
 
     All paths appear, or none. A log without provenance gets that of this process.
 
-    force : replace files that exist; without it that is an OutputError.
+    force : replace files that exist; without it that is an OutputError. attach : files that go into every .mcap.
     """
-    with saving([Path(path) for path in paths], force) as outputs:
+    with saving([Path(path) for path in paths], force, attach) as outputs:
         outputs.add(log)
         outputs.close(log)
 
@@ -43,8 +43,10 @@ def write(log: Log, *paths: str | Path, force: bool = False) -> None:
 class Saving:
     """Outputs in the making, under other names; see ``saving``."""
 
-    def __init__(self, parts: Sequence[tuple[str, Path, Path | None]], pending: contextlib.ExitStack) -> None:
-        """Begin. parts : ending, file to write to, and file of the metadata beside a CSV."""
+    def __init__(
+        self, parts: Sequence[tuple[str, Path, Path | None]], pending: contextlib.ExitStack, attach: Sequence[Path]
+    ) -> None:
+        """Begin. parts : ending, file to write to, file of the metadata beside a CSV. attach : as for ``saving``."""
         self._viewers: list[Any] = []
         self._tables: list[tuple[Any, Path, Path | None]] = []
         self._span: tuple[int, int] | None = None
@@ -63,7 +65,7 @@ class Saving:
             elif suffix == ".mcap":
                 from glidercli.logio.mcap.writer import McapLog
 
-                self._viewers.append(McapLog(pending.enter_context(part.open("wb"))))
+                self._viewers.append(McapLog(pending.enter_context(part.open("wb")), attach))
                 continue
             else:
                 from glidercli.logio.rerun.writer import RerunLog
@@ -99,8 +101,11 @@ class Saving:
 
 
 @contextlib.contextmanager
-def saving(paths: Sequence[Path], force: bool) -> Iterator[Saving]:
-    """Outputs that get a log with ``add``, in pieces or whole, and then ``close``; all appear at the end, or none."""
+def saving(paths: Sequence[Path], force: bool, attach: Sequence[Path] = ()) -> Iterator[Saving]:
+    """Outputs that get a log with ``add``, in pieces or whole, and then ``close``; all appear at the end, or none.
+
+    attach : files that go into every .mcap.
+    """
     with contextlib.ExitStack() as pending:
         parts = []
         for target in paths:
@@ -113,4 +118,4 @@ def saving(paths: Sequence[Path], force: bool) -> Iterator[Saving]:
             beside = pending.enter_context(atomic(metadata_path(target), force)) if suffix == ".csv" else None
             parts.append((suffix, part, beside))
         with contextlib.ExitStack() as streams:
-            yield Saving(parts, streams)
+            yield Saving(parts, streams, attach)

@@ -133,3 +133,18 @@ def test_notes_are_wrapped_for_a_terminal_alone(glider: Run, tmp_path: Path) -> 
     lines = shown.decode().splitlines()
     assert max(map(len, lines)) <= 80
     assert " ".join(" ".join(lines).split()) == " ".join(piped.split())
+
+
+def test_attach_puts_the_raw_files_into_the_mcap(glider: Run, tmp_path: Path) -> None:
+    from mcap.reader import make_reader
+
+    assert glider("replay", LOGS, "-o", "a.mcap", "--attach", "--quiet").returncode == 0
+    with (tmp_path / "a.mcap").open("rb") as stream:
+        found = {item.name: item.data for item in make_reader(stream, validate_crcs=True).iter_attachments()}
+    read = {Path(entry["path"]).name for entry in json.loads(found.pop("provenance.json"))["inputs"]}
+    assert found.keys() == read
+    assert found == {name: (LOGS / name).read_bytes() for name in read}
+    done = glider("replay", LOGS, "-o", "a.csv", "--attach")
+    assert (done.returncode, len(done.stderr.splitlines())) == (2, 1)
+    assert "--attach" in done.stderr
+    assert not (tmp_path / "a.csv").exists()
