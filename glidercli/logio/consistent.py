@@ -1,4 +1,4 @@
-"""What of a file cannot be, seen beside its neighbours in time? Fixes that jump and depths that spike, left out, counted.
+"""What of a file cannot be beside its neighbours in time? Fixes that jump, depths that spike: left out, counted.
 
 The rules stand in jumps.py. They are for recordings; what was simulated, and files of this program, stay as they are.
 """

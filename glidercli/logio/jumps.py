@@ -50,7 +50,7 @@ def agreeing(time_ns: Times, latitude: Array, longitude: Array) -> Mask:
 
     time_ns : (n,), UTC ns, strictly increasing. latitude, longitude : (n,), deg.
     """
-    time, place = time_ns * 1e-9, _on_sphere(latitude, longitude)
+    time, place = np.asarray(time_ns * 1e-9, np.float64), _on_sphere(latitude, longitude)
     if (_apart(place[1:], place[:-1]) <= CIRCLE + DRIFT * np.diff(time)).all():
         return np.ones(len(time), dtype=bool)
     length, cost, before = np.ones(len(time), dtype=int), np.zeros(len(time)), np.full(len(time), -1)
@@ -91,7 +91,8 @@ def _strain(time: Array, place: Array, i: int | NDArray[np.int_], j: int) -> Arr
 def _on_sphere(latitude: Array, longitude: Array) -> Array:
     """Places on a sphere, (n, 3), m."""
     north, east = np.radians(latitude), np.radians(longitude)
-    return EARTH * np.stack([np.cos(north) * np.cos(east), np.cos(north) * np.sin(east), np.sin(north)], axis=-1)
+    axes = np.cos(north) * np.cos(east), np.cos(north) * np.sin(east), np.sin(north)
+    return np.asarray(EARTH * np.stack(axes, axis=-1))
 
 
 def _apart(one: Array, other: Array) -> Array:

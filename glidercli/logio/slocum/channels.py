@@ -27,11 +27,13 @@ shows it: of 403 positions of eight files that count satellites (comet 2016 and 
 0160 on land) 47 have fewer than the four that a position takes. There the glider is on its way down, to 1 to 4.6 m, the
 number falls to 0, and mostly m_gps_speed and m_gps_heading stand still to the last bit while the position moves in
 equal steps: in comet 2016 at 5.7 m/s, 175 m to the east, where the drift is 0.3 m/s. One of two positions by three
-satellites is 27 m off. So with fewer than four (m_gps_num_satellites) a position is no fix. Where that is not recorded
-it is none if speed and heading are repeated while it moves, or if it lies 1.5 m deeper than the shallowest one of the
-same surfacing: of the 47 that finds 35, of the other 356 it takes 2, of a car at 17 m/s. It finds 8 in five files
-without satellites (amadeus 2014, electa 2023, unit_887 2021), none in comet-2019-218-00-032.sbd. Depth alone does not
-tell: after a dive to 191 m the gauge of modena stands at 3.4 to 3.9 m with eight satellites in view.
+satellites is 27 m off. So with fewer than four (m_gps_num_satellites) a position is no fix. A cycle that tells no
+number has the lower of those before and after it (one of comet 2016 is 12 m off); after a damage the number is not
+known until it is told anew, and that is no fix either. Where satellites are not recorded a position is no fix if speed
+and heading are repeated while it moves, or if it lies 1.5 m deeper than the shallowest one of its surfacing: of the 47
+that finds 35, of the other 356 it takes 2, of a car at 17 m/s. It finds 8 in five files without satellites (amadeus
+2014, electa 2023, unit_887 2021), none in comet-2019-218-00-032.sbd. Depth alone does not tell: after a dive to 191 m
+the gauge of modena stands at 3.4 to 3.9 m with eight satellites in view.
 What the receiver holds to be wrong goes to m_gps_invalid_*, m_gps_toofar_* or m_gps_ignored_*, and is not read.
 """
 
@@ -46,9 +48,10 @@ from numpy.typing import NDArray
 
 from glidercli.log import Channel
 from glidercli.logio.quantities import Quantity, channels_from, degrees, without_sentinels
+from glidercli.logio.records import CHANNELS_AT_REST
 from glidercli.units import BAR, CM3, INCH
 
-__all__ = ["RELAYED", "USED", "Column", "channels_of"]
+__all__ = ["AT_REST", "RECEIVER", "RELAYED", "USED", "Column", "channels_of"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -88,6 +91,8 @@ DIPPED = 1.5
 """m below the shallowest position of a surfacing, where the antenna is under water."""
 SURFACING = 300 * 10**9
 """ns; positions further apart are of another surfacing."""
+AT_REST = frozenset(name for name, quantity in SENSORS.items() if quantity.channel in CHANNELS_AT_REST)
+"""Sensors of which zero is a reading like others."""
 NOTES = {
     "depth": {"depth_note": "m_depth as recorded: the vehicle reckons 10 m to a bar of its own gauge"},
     "mass_position": {"mass_position_zero": "the actuator's own zero (m_battpos), not the model's"},
@@ -100,7 +105,8 @@ class Column(NamedTuple):
     """A sensor in the records of a file, (n,) each.
 
     sampled : the values, NaN in records without a sample, infinite where a sample is no number. fresh : whether the
-    sample is a new value. latest : the last number known in each record, from before the file if need be.
+    sample is a new value. latest : the last number known in each record, from before the file if need be; of RECEIVER
+    NaN after a damage until it is told anew.
     """
 
     sampled: Array
@@ -172,7 +178,7 @@ def _fixes(time_ns: Times, columns: Mapping[str, Column], warnings: list[str]) -
         warnings.append(f"m_gps_lat, m_gps_lon: {others} values left out that are no new fix")
     blind, coasting = _extrapolated(time_ns, columns, fix)
     for which, sign in (
-        (blind, f"fewer than {LEAST_SATELLITES} satellites ({SATELLITES})"),
+        (blind, f"fewer than {LEAST_SATELLITES} satellites, or none known ({SATELLITES})"),
         (coasting, f"under way down, or {' and '.join(VELOCITY)} stand still; {SATELLITES} is not told"),
     ):
         if which.any():
@@ -183,9 +189,14 @@ def _fixes(time_ns: Times, columns: Mapping[str, Column], warnings: list[str]) -
 
 def _extrapolated(time_ns: Times, columns: Mapping[str, Column], placed: Mask) -> tuple[Mask, Mask]:
     """Which of some positions, (n,), the receiver only extrapolated: by its satellites; by other signs without them."""
-    satellites = columns[SATELLITES].latest if SATELLITES in columns else np.full(len(time_ns), np.nan)
+    satellites = np.full(len(time_ns), np.nan)
+    if SATELLITES in columns:
+        sampled, latest = columns[SATELLITES].sampled, columns[SATELLITES].latest
+        next_one = np.append(sampled[1:], np.nan)
+        satellites = np.where(np.isnan(sampled), np.fmin(latest, next_one), latest)
     counted = (satellites >= 0.0) & (satellites < MOST_SATELLITES)
-    blind = placed & counted & (satellites < LEAST_SATELLITES)
+    counted |= np.isnan(satellites) & counted.any()
+    blind = placed & counted & ~(satellites >= LEAST_SATELLITES)
     coasting = np.zeros(len(time_ns), dtype=bool)
     if set(VELOCITY) <= columns.keys():
         coasting = columns[VELOCITY[0]].latest > 0.0
