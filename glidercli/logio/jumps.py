@@ -11,9 +11,9 @@ The most fixes that agree, each with the next, are kept; of several such choices
 these are not more than half of all, the vehicle may have been carried (01600001.dbd of dbdreader drives at 17 m/s), or
 two receivers disagree: then nothing tells what is wrong, and all are kept.
 
-A depth spike leaves the samples before it by more than 3 m/s and 2 m and comes back within five samples. Gliders sink
-and rise at less than 1 m/s, those in distress at less than 2; 2 m are noise and waves. A step that does not come back
-is no spike: the samples stay, and no speed is derived across it.
+A depth spike leaves the samples before it by more than 3 m/s and 2 m and comes back so within five samples. Gliders
+sink and rise at tenths of a metre per second, which leaves room for one that falls or shoots up; 2 m are noise and
+waves. A step that does not come back is no spike: the samples stay, and no speed is derived across it.
 """
 
 from __future__ import annotations
@@ -111,14 +111,15 @@ def beyond(time_ns: Times, depth: Array) -> Mask:
 def spikes(time_ns: Times, depth: Array) -> Mask:
     """The samples that leave those before and come back, (n,); none where that happens all the time."""
     found = np.zeros(len(depth), dtype=bool)
+    steps = np.where(beyond(time_ns, depth), np.sign(np.diff(depth)), 0.0)
     back = 0
-    for k in np.flatnonzero(beyond(time_ns, depth)).tolist():
+    for k in np.flatnonzero(steps).tolist():
         if k < back:
             continue
-        after = slice(k + 1, k + 2 + LONGEST)
+        after = slice(k + 2, k + 2 + LONGEST)
         room = NOISE + RATE * (time_ns[after] - time_ns[k]) * 1e-9
-        near = np.flatnonzero(np.abs(depth[after] - depth[k]) <= room)
-        if len(near):
-            back = k + 1 + int(near[0])
+        home = (steps[k + 1 : k + 1 + LONGEST] == -steps[k]) & (np.abs(depth[after] - depth[k]) <= room)
+        if home.any():
+            back = k + 2 + int(home.argmax())
             found[k + 1 : back] = True
     return found if found.sum() * OFTEN <= len(found) else np.zeros(len(depth), dtype=bool)
