@@ -24,16 +24,16 @@ Signs and units, and what shows them (comet 2016 and 2019, modena 2015):
 
 A receiver whose antenna goes under goes on for some 30 s with its last velocity, and its m_gps_status stays 0. What
 shows it: of 403 positions of eight files that count satellites (comet 2016 and 2019, modena 2015, sebastian 2014, and
-0160 on land) 47 have fewer than the four that a position takes. In all but two of them the glider is on its way down, at 0.9 to
-4.6 m, the number falls to 0, and mostly m_gps_speed and m_gps_heading stand still to the last bit while the position moves in
-equal steps: in comet 2016 at 5.7 m/s, 170 m to the east, where the drift is 0.3 m/s. One of two positions by three
-satellites is 27 m off. So with fewer than four (m_gps_num_satellites) a position is no fix. A cycle that tells no
-number has the lower of those before and after it (one of comet 2016 is 12 m off); after a damage the number is not
-known until it is told anew, and that is no fix either. Where satellites are not recorded a position is no fix if speed
-and heading are repeated while it moves, or if it lies 1.5 m deeper than the shallowest one of its surfacing: of the 47
-that finds 35, of the other 356 it takes 2, of a car at 17 m/s. It finds 8 in four files without satellites (amadeus
-2014, electa 2023, unit_887 2021), none in comet-2019-218-00-032.sbd. Depth alone does not tell: after a dive to 191 m
-the gauge of modena stands at 3.4 to 3.9 m with eight satellites in view.
+0160 on land) 47 have fewer than the four that a position takes. In all but two of them the glider is on its way down,
+at 0.9 to 4.6 m, the number falls to 0, and mostly m_gps_speed and m_gps_heading stand still to the last bit while the
+position moves in equal steps: in comet 2016 at 5.7 m/s, 170 m to the east, where the drift is 0.3 m/s. One of two
+positions by three satellites is 27 m off. So with fewer than four (m_gps_num_satellites) a position is no fix. A cycle
+that tells no number has the lower of those before and after it (one of comet 2016 is 12 m off); after a damage the
+number is not known until it is told anew, and that is no fix either. Where satellites are not recorded a position is no
+fix if speed and heading are repeated while it moves, or if it lies 1.5 m deeper than the shallowest one of its
+surfacing: of the 47 that finds 35, of the other 356 it takes 2, of a car at 17 m/s. It finds 8 in four files without
+satellites (amadeus 2014, electa 2023, unit_887 2021), none in comet-2019-218-00-032.sbd. Depth alone does not tell:
+after a dive to 191 m the gauge of modena stands at 3.4 to 3.9 m with eight satellites in view.
 What the receiver holds to be wrong goes to m_gps_invalid_*, m_gps_toofar_* or m_gps_ignored_*, and is not read.
 """
 
