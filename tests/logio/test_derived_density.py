@@ -18,7 +18,10 @@ from glidercli.logio.derived.seawater import with_seawater
 
 DEPLOYMENT = ROOT / "tests/data/netcdf/dfo-rosie713-20190615_adjusted.nc"
 TIMES = np.arange(4, dtype=np.int64) * 10**9
-WATER = {"temperature": 10.0, "salinity": 35.0, "pressure": 1e6, "depth": 99.0}
+WATER = {
+    "temperature": 10.0, "salinity": 35.0, "pressure": 1e6, "depth": 99.0, "absolute_salinity": 35.2,
+    "conservative_temperature": 9.9,
+}  # fmt: skip
 
 
 def log_of(*names: str, **late: int) -> Log:
@@ -59,6 +62,14 @@ def test_a_recorded_pressure_goes_before_depth() -> None:
     log = with_seawater(log_of("temperature", "salinity", "pressure", "depth"))
     np.testing.assert_allclose(log["density"].values, gsw.rho_t_exact(gsw.SR_from_SP(35.0), 10.0, 100.0), rtol=1e-12)
     assert "gsw.p_from_z" not in log.metadata["density_note"]
+
+
+def test_absolute_salinity_and_conservative_temperature_do() -> None:
+    log = with_seawater(log_of("conservative_temperature", "absolute_salinity", "pressure"))
+    np.testing.assert_allclose(log["density"].values, gsw.rho(35.2, 9.9, 100.0), rtol=1e-12)
+    assert log.metadata["density_note"] == "derived: TEOS-10, in situ, absolute salinity as recorded (gsw.rho)"
+    log = with_seawater(log_of("temperature", "absolute_salinity", "pressure"))
+    np.testing.assert_allclose(log["density"].values, gsw.rho_t_exact(35.2, 10.0, 100.0), rtol=1e-12)
 
 
 @pytest.mark.parametrize(

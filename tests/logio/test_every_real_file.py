@@ -18,7 +18,7 @@ from glidercli.logio.reader import Aids
 FAMILIES = {
     "logs/seaexplorer-sea035": "seaexplorer", "logs/slocum-comet-2019": "slocum", "logs/seaglider-sg561": "seaglider",
     "tests/data/seaexplorer": "seaexplorer", "tests/data/slocum": "slocum", "tests/data/seaglider": "seaglider",
-    "tests/data/netcdf": "",
+    "tests/data/seaexplorer-sea035": "seaexplorer", "tests/data/netcdf": "",
 }  # fmt: skip
 FILES = [
     path for folder in FAMILIES for path in sorted((ROOT / folder).iterdir())

@@ -79,7 +79,7 @@ def test_as_many_as_can_be_agree(steps: list[tuple[int, int]]) -> None:
 
 def test_the_first_fix_of_a_surfacing_of_sea035_is_126_m_off() -> None:
     """14:15:41 to 14:16:01 it would have gone 128 m in 20 s, 6 m/s; the drift after it is 0.3 m/s."""
-    path = ROOT / "tests/data/seaexplorer/sea035.12.gli.sub.42"
+    path = ROOT / "tests/data/seaexplorer-sea035/sea035.12.gli.sub.42"
     before = read_file(path, None, Aids()).log["latitude"]
     reading = read([path])
     log, report = reading.log, reading.files[0]

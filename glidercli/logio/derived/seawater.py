@@ -18,6 +18,9 @@ Mask = NDArray[np.bool_]
 NEAR = ("near_latitude_deg", "near_longitude_deg")
 """Metadata of a log without fixes: roughly where it was."""
 
+SALTS = ("salinity", "absolute_salinity")
+HEATS = ("temperature", "conservative_temperature")
+"""Of each pair the first that the log has makes its density."""
 FARTHEST = 30 * 86400 * 10**9
 """ns from the nearest fix, beyond which no position is taken: of a clock that is a year off none is known."""
 
@@ -40,29 +43,34 @@ def with_seawater(log: Log, near: Whereabouts | None = None) -> Log:
             notes["salinity_note"] = (
                 "derived: PSS-78 of conductivity, temperature and pressure at one time (gsw.SP_from_C)"
             )
-    if "density" not in log and log.channels.keys() & {"temperature", "salinity", "conductivity"}:
+    if "density" not in log and log.channels.keys() & {"conductivity", *SALTS, *HEATS}:
         log, notes["density_note"] = _with_density(log, near)
     return log.with_metadata(**notes)
 
 
 def _with_density(log: Log, near: Whereabouts | None) -> tuple[Log, str]:
     """The log with density, and how it was derived; or why it was not."""
-    gauge = "pressure" if "pressure" in log else "depth"
-    missing = [name for name in ("temperature", "salinity", gauge) if name not in log]
-    if missing:
-        words = " and no ".join(missing).replace("depth", "pressure or depth")
+    salt, heat, gauge = (
+        next((name for name in names if name in log), names[0]) for names in (SALTS, HEATS, ("pressure", "depth"))
+    )
+    if missing := [name for name in (heat, salt, gauge) if name not in log]:
+        words = " and no ".join(missing).replace("pressure", "pressure or depth")
         return log, f"not derived: the log has no {words}"
-    times, (s, t, z) = log.together("salinity", "temperature", gauge)
+    times, (s, t, z) = log.together(salt, heat, gauge)
     if not len(times):
-        return log, f"not derived: salinity, temperature and {gauge} have no sample at one time"
+        return log, f"not derived: {salt}, {heat} and {gauge} have no sample at one time"
     placed, near_by, where = _places(log, near, times)
     p_dbar, how = (np.maximum(z / DBAR, 0.0), "") if gauge == "pressure" else _pressure(z, placed)
-    log, told = _with(log, "density", times, _density(s, t, p_dbar, placed, near_by))
+    if salt == "absolute_salinity":
+        absolute, where = s, "absolute salinity as recorded"
+    else:
+        absolute = _absolute(s, p_dbar, placed, near_by)
+        if placed is not None and (far := int((~near_by).sum())):
+            where += f", reference salinity for {far} samples more than 30 days from any of them"
+    log, told = _with(log, "density", times, _density(absolute, t, p_dbar, heat))
     if not told:
-        return log, "not derived: TEOS-10 gives no number for these salinities, temperatures and pressures"
-    if (far := int((~near_by).sum())) and placed is not None:
-        where += f", reference salinity for {far} samples more than 30 days from any of them"
-    return log, f"derived: TEOS-10, in situ, {where}{how} (gsw.rho_t_exact)"
+        return log, f"not derived: TEOS-10 gives no number for this {salt}, {heat} and {gauge}"
+    return log, f"derived: TEOS-10, in situ, {where}{how} ({'gsw.rho_t_exact' if heat == HEATS[0] else 'gsw.rho'})"
 
 
 def _with(log: Log, name: str, times: Times, values: Array) -> tuple[Log, bool]:
@@ -101,15 +109,22 @@ def _pressure(depth: Array, placed: tuple[Array, Array] | None) -> tuple[Array, 
     return np.asarray(p_dbar), f"; no pressure is recorded, it is that of depth {place} (gsw.p_from_z)"
 
 
-def _density(s: Array, t: Array, p_dbar: Array, placed: tuple[Array, Array] | None, near_by: Mask) -> Array:
-    """In-situ density, kg/m3, with absolute salinity where a place is known, else with reference salinity."""
+def _absolute(s: Array, p_dbar: Array, placed: tuple[Array, Array] | None, near_by: Mask) -> Array:
+    """Absolute salinity, g/kg, of practical salinity where a place is known, else reference salinity."""
     import gsw
 
     absolute = gsw.SR_from_SP(s)
     if placed is not None:
         latitude, longitude = placed
         absolute = np.where(near_by, gsw.SA_from_SP(s, p_dbar, np.mod(longitude, 360.0), latitude), absolute)
-    return np.asarray(gsw.rho_t_exact(absolute, t, p_dbar))
+    return np.asarray(absolute)
+
+
+def _density(absolute: Array, t: Array, p_dbar: Array, heat: str) -> Array:
+    """In-situ density, kg/m3, of absolute salinity and in-situ or conservative temperature, degC."""
+    import gsw
+
+    return np.asarray((gsw.rho_t_exact if heat == HEATS[0] else gsw.rho)(absolute, t, p_dbar))
 
 
 def _distance(times: Times, fixed: Times) -> Times:
