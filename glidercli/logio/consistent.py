@@ -41,11 +41,11 @@ def consistent(part: Part) -> Part:
         return part
     times, (latitude, longitude) = part.log.together(*FIX)
     kept = agreeing(times, latitude, longitude)
-    apart = f"further apart than {DRIFT:g} m/s and {CIRCLE:g} m allow"
+    allowed = f"({DRIFT:g} m/s and {CIRCLE:g} m are allowed)"
     if 2 * kept.sum() > len(kept):
-        told = f"GPS: {{}} fixes left out, {apart} from the others"
+        told = f"GPS: {{}} fixes left out, too far from the others {allowed}"
         return _without(part, FIX, times[~kept], told, "fix too far from the others for its time")
-    note = f"GPS: {len(kept)} fixes, most of them {apart}: was it carried? Nothing tells which are wrong, all are kept"
+    note = f"GPS: {len(kept)} fixes, half or more too far from one another {allowed}; nothing tells which, all are kept"
     return _with_note(part, note) if len(kept) else part
 
 

@@ -84,7 +84,7 @@ def test_the_first_fix_of_a_surfacing_of_sea035_is_126_m_off() -> None:
     reading = read([path])
     log, report = reading.log, reading.files[0]
     (note,) = [warning for warning in report.warnings if warning.startswith("GPS")]
-    assert note.endswith("from the others: 2019-07-22T14:15:41Z")
+    assert note.endswith("too far from the others (3 m/s and 50 m are allowed): 2019-07-22T14:15:41Z")
     assert "1 fixes left out" in note
     assert log["latitude"].time_ns.tolist() == before.time_ns[1:].tolist()
     assert len(log["longitude"]) == len(log["latitude"])
@@ -95,7 +95,7 @@ def test_a_stale_position_of_a_slocum_in_og1_is_left_out() -> None:
     """12:07:23 has the place of 11:38:55, and 88 s later it is 976 m further on."""
     reading = read([ROOT / "tests/data/netcdf/dfo-rosie713-20190615-og10.nc"])
     (note,) = [warning for warning in reading.files[0].warnings if warning.startswith("GPS")]
-    assert note.endswith("from the others: 2019-06-20T12:07:23Z")
+    assert note.endswith("too far from the others (3 m/s and 50 m are allowed): 2019-06-20T12:07:23Z")
     assert len(reading.log["latitude"]) == 19
 
 
