@@ -2,13 +2,18 @@
 
 A record is a line, a row or a cycle: one time and the values noted at it. Rules, in this order: its time cannot be
 read; its clock was not set; it holds no value, or zeros alone; its time breaks the order of the others.
+
+Zeros alone are what is told of sensors that are not fitted, or did not sample: rows of .ebd with temperature,
+conductivity and pressure 0, a first cycle with depth, pitch and fin 0 (comet 2019). A vehicle at the surface tells a
+depth of 0, too, and an actuator rests at 0: where a record tells of nothing else, zeros are readings (six cycles of
+unit_887-2021-321-3-0.sbd, three of electa-2023-143-00-050.sbd, with m_depth alone).
 """
 
 from __future__ import annotations
 
 from bisect import bisect_left
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 import numpy as np
@@ -16,7 +21,7 @@ from numpy.typing import NDArray
 
 from glidercli.log import Channel
 
-__all__ = ["NO_TIME", "YEARS", "in_order", "sampled", "to_ns", "usable"]
+__all__ = ["CHANNELS_AT_REST", "NO_TIME", "YEARS", "in_order", "sampled", "to_ns", "usable"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -30,6 +35,10 @@ STRAY = 30 * 86400 * 10**9
 """Times of one file that stand further apart than this are of two clocks, ns."""
 BORN = 631_152_000 * 10**9
 """1990-01-01, UTC ns: no glider flew before."""
+CHANNELS_AT_REST = frozenset(
+    ("depth", "pressure", "phase", "mass_position", "mass_rotation", "net_buoyancy", "ballast_volume", "rudder_angle")
+)
+"""Channels of which zero is a reading like others: at the surface, in phase 0, at an actuator's own zero."""
 HELD = 3
 """So many records show that a clock was set; fewer may be garbled."""
 
@@ -42,10 +51,13 @@ def to_ns(moments: Any) -> Times:
     return np.asarray(np.where(told, moments.where(told).to_numpy().astype("datetime64[ns]").astype(np.int64), NO_TIME))
 
 
-def usable(time_ns: Times, cells: Mapping[str, Array], dropped: Counter[str]) -> Mask:
+def usable(
+    time_ns: Times, cells: Mapping[str, Array], dropped: Counter[str], at_rest: Collection[str] = CHANNELS_AT_REST
+) -> Mask:
     """Which records can be used, (n,); the others are counted in ``dropped`` by their reason.
 
     time_ns : (n,), UTC ns, NO_TIME where it cannot be read. cells : (n,) by column, not finite where there is no value.
+    at_rest : columns whose zeros are readings, where a record tells of no other.
     """
     good: Mask = time_ns != NO_TIME
     _count(dropped, "time cannot be read", ~good)
@@ -59,14 +71,16 @@ def usable(time_ns: Times, cells: Mapping[str, Array], dropped: Counter[str]) ->
         _count(dropped, "time more than 30 days after the file's other times", after)
         good &= ~(before | after)
     told = np.zeros(len(time_ns), dtype=bool)
-    sized = np.zeros(len(time_ns), dtype=bool)
-    for values in cells.values():
+    sized, resting = np.zeros(len(time_ns), dtype=bool), np.ones(len(time_ns), dtype=bool)
+    for name, values in cells.items():
         finite = np.isfinite(values)
         told |= finite
         sized |= finite & (values != 0.0)
+        if name not in at_rest:
+            resting &= ~finite
     _count(dropped, "no value", good & ~told)
-    _count(dropped, "all values zero", good & told & ~sized)
-    good &= told & sized
+    _count(dropped, "all values zero", good & told & ~sized & ~resting)
+    good &= told & (sized | resting)
     good[good] = in_order(time_ns[good], dropped)
     return good
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from glidercli.errors import GliderError
 from glidercli.files import readable_file
+from glidercli.logio.consistent import consistent
 from glidercli.logio.formats import FORMATS, recognised
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport
@@ -67,6 +68,6 @@ def _read(path: Path, format: str | None, aids: Aids) -> Part | FileReport:
     except GliderError as error:
         return FileReport(path, name, 0, 0, error=str(error).removeprefix(f"{path}: "))
     if part.log.channels:
-        return part
+        return part if FORMATS[name].own else consistent(part)
     why = ", ".join(f"{count} {reason}" for reason, count in part.report.dropped)
     return dataclasses.replace(part.report, error=part.report.error or "no usable record" + (f": {why}" if why else ""))

@@ -18,7 +18,7 @@ from glidercli.logio.reader import Aids
 FAMILIES = {
     "logs/seaexplorer-sea035": "seaexplorer", "logs/slocum-comet-2019": "slocum", "logs/seaglider-sg561": "seaglider",
     "tests/data/seaexplorer": "seaexplorer", "tests/data/slocum": "slocum", "tests/data/seaglider": "seaglider",
-    "tests/data/netcdf": "",
+    "tests/data/seaexplorer-sea035": "seaexplorer", "tests/data/netcdf": "",
 }  # fmt: skip
 FILES = [
     path for folder in FAMILIES for path in sorted((ROOT / folder).iterdir())
@@ -27,7 +27,7 @@ FILES = [
 
 
 def test_there_are_many() -> None:
-    assert len(FILES) == 34
+    assert len(FILES) == 36
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)

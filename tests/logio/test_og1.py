@@ -240,3 +240,79 @@ def test_units_by_their_many_names(unit: str, channel: str, factor: float, offse
 )
 def test_a_unit_of_something_else_is_none(unit: str, channel: str) -> None:
     assert conversion(unit, channel) is None
+
+
+AT_SURFACE = DATA / "sg033_20100729T133612_at-surface.nc"
+
+
+def test_positions_without_a_unit_are_degrees() -> None:
+    log, report = read_one(AT_SURFACE)
+    with xr.open_dataset(AT_SURFACE) as file:
+        told = np.isfinite(file["LATITUDE_GPS"].values)
+        places = file["LATITUDE_GPS"].values[told], file["LONGITUDE_GPS"].values[told]
+    assert log["latitude"].values.tolist() == places[0].tolist()
+    assert log["longitude"].values.tolist() == places[1].tolist()
+    assert "LATITUDE_GPS: no unit is told, taken as degrees of latitude" in report.warnings
+    assert report.dropped == ()
+
+
+def test_another_unit_of_a_position_is_still_refused_by_name(tmp_path: Path) -> None:
+    def change(file: Any) -> None:
+        file["LATITUDE_GPS"].units = "furlong"
+        file["DEPTH"][0] = 0.0
+        for name in ("PRES", "CNDC", "TEMP", "PITCH"):
+            file[name][0] = -9999.9
+
+    log, report = read_one(made(tmp_path / "a.nc", change))
+    assert "latitude" not in log
+    assert any(w.startswith("LATITUDE_GPS: left out, the unit 'furlong' is not known") for w in report.warnings)
+    assert "all values zero" not in dict(report.dropped)
+
+
+def test_the_controls_of_a_seaglider() -> None:
+    log, report = read_one(AT_SURFACE)
+    with xr.open_dataset(AT_SURFACE) as file:
+        seen = {n: file[n].values[np.isfinite(file[n].values)] for n in ("eng_pitchCtl", "eng_rollCtl", "eng_vbdCC")}
+    # sums of products differ in the last bits
+    np.testing.assert_allclose(log["mass_position"].values, -0.01 * seen["eng_pitchCtl"], rtol=1e-14)
+    np.testing.assert_allclose(log["mass_rotation"].values, -np.radians(seen["eng_rollCtl"]), rtol=1e-14)
+    np.testing.assert_allclose(log["ballast_volume"].values, 1e-6 * seen["eng_vbdCC"], rtol=1e-14)
+    _, (position, pitch) = log.together("mass_position", "pitch")
+    assert np.corrcoef(position, pitch)[0, 1] < -0.8  # the battery forward, the nose down, here among waves
+    assert "eng_vbdCC: no unit is told; taken as the cm3 of a Seaglider's vbdCC" in report.warnings
+    assert log["mass_position"].origin == "measured"
+    assert log.metadata["mass_position_zero"].startswith("the vehicle's own centre")
+
+
+@pytest.mark.parametrize(
+    ("model", "unit", "values", "says"),
+    [
+        ("Teledyne Slocum G3", "", [0.5] * 6, "the file does not say that it is of a Seaglider"),
+        ("Seaglider M1", "counts", [2100.0] * 6, "in counts, and the file tells no centre and conversion"),
+        ("Seaglider M1", "furlong", [0.5] * 6, "the unit 'furlong' is not known"),
+        ("Seaglider M1", "counts", [0.5] * 6, ""),
+        ("Seaglider M1", "cm", [0.5] * 6, ""),
+    ],
+)
+def test_controls_that_cannot_be_told_are_named(
+    tmp_path: Path, model: str, unit: str, values: list[float], says: str
+) -> None:
+    def change(file: Any) -> None:
+        file.PLATFORM_MODEL = model
+        file.createVariable("PITCH_CTL", "f8", ("N_MEASUREMENTS",))[:] = values
+        if unit:
+            file["PITCH_CTL"].units = unit
+
+    log, report = read_one(made(tmp_path / "a.nc", change))
+    assert ("mass_position" in log) == (not says)
+    if says:
+        assert any(w.startswith("PITCH_CTL: left out") and says in w for w in report.warnings)
+    else:
+        assert log["mass_position"].values.tolist() == [-0.005] * 6
+
+
+def test_a_magnetic_heading_is_told() -> None:
+    log, report = read_one(SEAGLIDER)
+    assert log.metadata["heading_note"].startswith("from magnetic north, HEADING as recorded")
+    assert any(w.endswith("values stay from magnetic north") for w in report.warnings)
+    assert "heading_note" not in read_one(SLOCUM)[0].metadata

@@ -72,3 +72,18 @@ def test_1970_and_blank_and_zero_records() -> None:
 
 def test_nothing_in_nothing_out() -> None:
     assert usable(np.array([], np.int64), {}, Counter()).tolist() == []
+
+
+def test_zeros_are_readings_where_a_record_tells_of_nothing_else() -> None:
+    """Depth at the surface, phase 0 and an actuator at rest; not what a CTD tells that did not sample."""
+    nan = np.nan
+    cells = {
+        "depth": np.array([0.0, 0.0, 0.0, nan, 0.0]),
+        "phase": np.array([nan, 0.0, nan, nan, nan]),
+        "pitch": np.array([nan, nan, 0.0, nan, 0.1]),
+        "temperature": np.array([nan, nan, nan, 0.0, nan]),
+    }
+    dropped: Counter[str] = Counter()
+    kept = usable(NOW + np.arange(5, dtype=np.int64), cells, dropped)
+    assert kept.tolist() == [True, True, False, False, True]
+    assert dropped == {"all values zero": 2}

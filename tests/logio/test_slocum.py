@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import shutil
 from pathlib import Path
@@ -219,10 +220,72 @@ def test_only_new_fixes_of_a_receiver_that_says_so_count(tmp_path: Path) -> None
     cycles[5] |= {"m_gps_status": 0, "m_gps_lat": 69696969.0, "m_gps_lon": 69696969.0}  # type: ignore[operator]
     cycles[6] |= {"m_gps_lat": 5460.1, "m_gps_lon": 646.25}  # type: ignore[operator]
     cycles[7] |= {"m_gps_lat": 5440.9, "m_gps_lon": math.nan}  # type: ignore[operator]
-    cycles[8] |= place  # type: ignore[operator]
+    cycles[8] |= place | {"m_depth": 0.5}  # type: ignore[operator]
     log, report = reading(tmp_path, cycles)
     assert (log["latitude"].time_ns * 1e-9 - START).tolist() == pytest.approx([8.0, 32.0], abs=1e-3)
-    assert "m_gps_lat, m_gps_lon: 5 values left out that are no new fix, 2 kept" in report.warnings
+    assert "m_gps_lat, m_gps_lon: 5 values left out that are no new fix" in report.warnings
+
+
+def test_positions_that_a_receiver_extrapolates_under_water_are_no_fixes() -> None:
+    """comet 2016, first surfacing: it dives from 17:52:11 on, and the receiver goes on to the east at 5.7 m/s."""
+    path = DATA / "comet-2016-174-05-000.dbd"
+    log, report = lawful(read_slocum(path))
+    found = sensors(path, ["m_gps_num_satellites", "m_gps_lat"])
+    time, satellites = found["m_gps_num_satellites"]
+    few = np.intersect1d(time[satellites < 4], found["m_gps_lat"][0])
+    assert len(few) == 6
+    fixes = log["latitude"].time_ns * 1e-9
+    assert np.abs(fixes[:, None] - few).min() > 1.0
+    assert any(
+        w == "m_gps_lat, m_gps_lon: 7 values left out that are extrapolated: fewer than 4 satellites, or none known "
+        "(m_gps_num_satellites)"  # six, and one between 10 and 3 satellites that tells no number
+        for w in report.warnings
+    )
+    assert len(fixes) == 17  # of 24 new positions
+    (closure,) = json.loads(read([path]).log.metadata["closures"])
+    # the two dives after it have 0.05 to 0.08 m/s to the west; with the extrapolated positions it was 0.36
+    assert -0.08 < closure["current_east_m_s"] < -0.05
+
+
+def test_the_spiral_keeps_the_fixes_of_a_receiver_with_satellites() -> None:
+    path = SPIRAL / "comet-2019-218-00-034.dbd"
+    log, _ = lawful(read_slocum(path))
+    found = sensors(path, ["m_gps_num_satellites", "m_gps_lat", "m_depth"])
+    time, satellites = found["m_gps_num_satellites"]
+    good = np.intersect1d(time[satellites >= 4], found["m_gps_lat"][0])
+    fixes = log["latitude"].time_ns * 1e-9
+    assert len(good) == len(fixes) == 23
+    assert np.abs(fixes - good).max() < 1e-6  # rounding of the sensor's double
+
+
+COASTING = (*NAVIGATION, ("m_gps_speed", "m/s", 4), ("m_gps_heading", "rad", 4))
+
+
+@pytest.mark.parametrize("sign", ["depth", "velocity"])
+def test_without_a_number_of_satellites_other_signs_count(tmp_path: Path, sign: str) -> None:
+    cycles: list[Cycle] = []
+    for i in range(9):
+        under = i > 5
+        moving = SAME if under and sign == "velocity" else 0.3 + 0.1 * i
+        cycles.append(
+            {
+                "m_present_time": START + 4.0 * i, "m_depth": 0.2 + (0.9 * (i - 4) if under and sign == "depth" else 0.0),
+                "m_pitch": -0.1, "m_gps_status": 0, "m_gps_lat": 5440.5 + 0.001 * i, "m_gps_lon": 646.25,
+                "m_gps_speed": moving, "m_gps_heading": moving,
+            }
+        )  # fmt: skip
+    log, report = reading(tmp_path, cycles, table=COASTING)
+    assert (log["latitude"].time_ns * 1e-9 - START).tolist() == pytest.approx([4.0, 8.0, 12.0, 16.0, 20.0], abs=1e-3)
+    assert any("3 values left out that are extrapolated: under way down" in w for w in report.warnings)
+
+
+def test_a_depth_of_zero_at_the_surface_is_a_sample(tmp_path: Path) -> None:
+    cycles = dive(6)
+    cycles[2] = {"m_present_time": START + 8.0, "m_depth": 0.0}
+    cycles[4] = {"m_present_time": START + 16.0, "m_depth": 0.0, "m_pitch": 0.0}
+    log, report = reading(tmp_path, cycles)
+    assert log["depth"].values.tolist() == [0.5, 0.0, 1.5, 2.5]
+    assert ("all values zero", 1) in report.dropped
 
 
 TURNING = (*NAVIGATION[:3], ("m_heading", "rad", 4), ("m_gps_mag_var", "rad", 4))

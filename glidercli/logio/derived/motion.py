@@ -7,6 +7,7 @@ import numpy as np
 from glidercli.channels import PHASES
 from glidercli.dives import LEGS, mask, phases
 from glidercli.log import Channel, Log
+from glidercli.logio.jumps import NOISE, RATE, beyond
 from glidercli.units import DBAR
 
 __all__ = ["AFLOAT", "LONGEST_GAP", "with_motion", "with_phase"]
@@ -24,12 +25,16 @@ def with_motion(log: Log) -> Log:
         depth, notes["depth_note"] = _depth(log)
         log = log.with_channels(depth)
     if "depth" in log and "vertical_speed" not in log:
-        speed = _vertical_speed(log["depth"])
+        speed, jumps = _vertical_speed(log["depth"])
         if len(speed):
             log = log.with_channels(speed)
             notes["vertical_speed_note"] = (
                 f"derived: central difference of depth, none beside a gap of more than {LONGEST_GAP:.0f} s"
             )
+            if jumps:
+                notes["vertical_speed_note"] += (
+                    f", nor at {jumps} samples beside a step of depth of more than {RATE:g} m/s and {NOISE:g} m"
+                )
     return with_phase(log.with_metadata(**notes))
 
 
@@ -57,13 +62,18 @@ def _depth(log: Log) -> tuple[Channel, str]:
     return depth, f"derived from pressure by TEOS-10 {place}"
 
 
-def _vertical_speed(depth: Channel) -> Channel:
-    """Central difference of depth by time, m/s, positive down; left out beside a long gap."""
+def _vertical_speed(depth: Channel) -> tuple[Channel, int]:
+    """Central difference of depth by time, m/s, positive down; and at how many samples it is left out since a step
+    beside them is more than a glider can sink or rise. It is left out beside a long gap, too."""
     time = depth.time_ns * 1e-9
     ahead, behind = np.diff(time)[1:], np.diff(time)[:-1]
     near = (ahead <= LONGEST_GAP) & (behind <= LONGEST_GAP)
+    steps = beyond(depth.time_ns, depth.values)
+    sound = ~(steps[1:] | steps[:-1])
     speed = (depth.values[2:] - depth.values[:-2]) / (ahead + behind) if len(depth) > 2 else np.array([])
-    return Channel("vertical_speed", depth.time_ns[1:-1][near], speed[near], "derived")
+    kept = near & sound
+    times = depth.time_ns[1:-1][kept]
+    return Channel("vertical_speed", times, speed[kept], "derived"), int((near & ~sound).sum())
 
 
 def _phase(log: Log) -> Channel:

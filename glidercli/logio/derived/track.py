@@ -18,6 +18,7 @@ from glidercli.channels import PHASES
 from glidercli.log import Channel, Log
 from glidercli.logio.derived.closure import Closure, Fixes, close
 from glidercli.logio.derived.motion import LONGEST_GAP
+from glidercli.logio.jumps import beyond
 from glidercli.places import track_of_geodetic
 from glidercli.units import DEGREE
 
@@ -50,7 +51,7 @@ def with_track(log: Log) -> Log:
     incline = np.abs(0.5 * (theta[1:] + theta[:-1]))
     gap = steps > LONGEST_GAP
     afloat = _at_surface(log, times)
-    under = ~gap & ~(afloat[1:] | afloat[:-1])
+    under = ~gap & ~(afloat[1:] | afloat[:-1]) & ~beyond(times, z)
     gliding = (incline >= LEAST_PITCH) & (rate >= LEAST_DEPTH_RATE) & under
     speed = np.where(gliding, rate / np.tan(np.maximum(incline, LEAST_PITCH)), 0.0)
     through = _speed(log, times[:-1] + (times[1:] - times[:-1]) // 2)

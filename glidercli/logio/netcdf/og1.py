@@ -7,6 +7,7 @@ OG_Format-v1.0.0.adoc); PHASE: its vocabularyCollection/phase.md; GLIDER_PITCH a
     LATITUDE, LONGITUDE             of each measurement: interpolated between fixes: the place for absolute
                                     salinity where there is no fix, and no more
     TIME_GPS, LATITUDE_GPS, LONGITUDE_GPS   the fixes; a file without TIME_GPS has their times in TIME
+    PITCH_CTL, ROLL_CTL, VBD_CC     of a Seaglider (seaglider_controls.py)
     PHASE                           1 ascent, 2 descent, 3 surfacing, 4 parking; others are no phase of flight here
 
 Pitch is nose up positive and roll starboard down positive, as recorded: in sg033_20100903 pitch is -17 deg (median)
@@ -23,6 +24,7 @@ import numpy as np
 from glidercli.channels import PHASES
 from glidercli.errors import InputError
 from glidercli.logio.netcdf.pyglider import read_with_attitude
+from glidercli.logio.netcdf.seaglider_controls import CONTROL_NAMES, controls
 from glidercli.logio.netcdf.times import times_of
 from glidercli.logio.netcdf.trajectory import Positions, Rows, near_of, part_of, unread_in
 from glidercli.logio.netcdf.variables import Values, attributes, text_of, values_of
@@ -67,7 +69,9 @@ def read_og1(path: Path, aids: Aids = Aids()) -> Part:
             raise InputError(path, f"TIME is along {file['TIME'].dimensions}; along {DIMENSION} is needed")
         warnings: list[str] = []
         metadata = _metadata(file)
-        found = read_with_attitude(file, DIMENSION, NAMES, metadata, warnings)
+        found = read_with_attitude(file, DIMENSION, NAMES, metadata, warnings, CONTROL_NAMES)
+        found |= controls(file, DIMENSION, metadata.get("platform_model", ""), metadata, warnings)
+        _tell_of_heading(file, found, metadata, warnings)
         if "PHASE" in file.variables and file["PHASE"].dimensions == (DIMENSION,):
             found["phase"] = _phase(file, warnings)
         _tell_of_positions(file, count, warnings)
@@ -104,6 +108,15 @@ def _phase(file: Any, warnings: list[str]) -> Values:
             f"PHASE: {other} values left out that are no phase of flight (inflexion, propelled, transition)"
         )
     return Values("PHASE", values, "derived")
+
+
+def _tell_of_heading(file: Any, found: dict[str, Values], metadata: dict[str, str], warnings: list[str]) -> None:
+    """That a heading stays from magnetic north, where the file says that it is."""
+    name = found["heading"].name if "heading" in found else ""
+    told = attributes(file[name]) if name else {}
+    if any("magnetic" in str(told.get(key, "")).lower() for key in ("comment", "long_name", "standard_name")):
+        warnings.append(f"{name}: {np.isfinite(found['heading'].values).sum()} values stay from magnetic north")
+        metadata["heading_note"] = f"from magnetic north, {name} as recorded: the file tells no magnetic variation"
 
 
 def _tell_of_positions(file: Any, count: int, warnings: list[str]) -> None:

@@ -8,7 +8,7 @@ of -0.52 to 0.51.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -36,9 +36,10 @@ def read_with_attitude(
     names: Mapping[str, Sequence[str]],
     metadata: dict[str, str],
     warnings: list[str],
+    besides: Collection[str] = (),
 ) -> dict[str, Values]:
     """The channels of a file, by ``found_in``; what pyglider made of the attitude is mended and told in metadata."""
-    found = found_in(file, dimension, names, STANDARD_NAMES, warnings)
+    found = found_in(file, dimension, names, STANDARD_NAMES, warnings, besides)
     if is_pyglider(file):
         found = _mended(file, found, warnings)
         if "pitch" in found:

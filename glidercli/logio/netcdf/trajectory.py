@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -69,10 +69,12 @@ def found_in(
     names: Mapping[str, Sequence[str]],
     standard: Mapping[str, str],
     warnings: list[str],
+    besides: Collection[str] = (),
 ) -> dict[str, Values]:
     """The channels of a file's variables along a dimension, by name, else by standard name.
 
     names : variable names by channel, the first that is there is taken. standard : channel by standard name.
+    besides : variables that the reader reads itself.
     """
     along = _along(file, dimension)
     chosen = {channel: next((n for n in known if n in along), None) for channel, known in names.items()}
@@ -85,7 +87,7 @@ def found_in(
         values = None if variable is None else values_of(file, variable, channel, warnings)
         if values is not None:
             found[channel] = values
-    known = {*chosen.values(), *TOLD_OF}
+    known = {*chosen.values(), *TOLD_OF, *besides}
     other = [name for name in along if name not in known and not _is_flag(name)]
     if other:
         warnings.append(f"variables not known and not used: {', '.join(other)}")

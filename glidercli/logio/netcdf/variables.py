@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from glidercli.log import Origin
 from glidercli.logio.named_units import conversion, units_of
 
-__all__ = ["BAD_PLACE", "COMPUTED", "Values", "attributes", "flags_of", "text_of", "values_of"]
+__all__ = ["BAD_PLACE", "COMPUTED", "Values", "attributes", "flags_of", "stored_numbers", "text_of", "values_of"]
 
 Array = NDArray[np.float64]
 
@@ -24,6 +24,7 @@ BAD = {3: "probably bad", 4: "bad", 6: "unused flag", 7: "unused flag", 8: "inte
 BAD_PLACE = {flag: meaning for flag, meaning in BAD.items() if flag != 8}
 """Of a position that need not be a fix."""
 CHANGED = 5
+DEGREES = ("latitude", "longitude")
 LARGEST = 1e200
 """Larger numbers are impossible for any channel, and products with them stay numbers."""
 LONGEST_TEXT = 4096
@@ -80,10 +81,14 @@ def values_of(file: Any, name: str, channel: str, warnings: list[str], bad: Mapp
     """The values of a variable as a channel; None, with a warning, where its unit is not known.
 
     What is left out, apart from blanks, is counted in a warning. bad : flags of what is left out, and their meanings.
+    A latitude or longitude without a unit is in degrees: CF knows none but degrees for them (sections 4.1 and 4.2).
     """
     variable = file[name]
     told = attributes(variable)
     unit = str(told.get("units", "")).strip()
+    if not unit and channel in DEGREES:
+        unit = "degrees"
+        warnings.append(f"{name}: no unit is told, taken as degrees of {channel}")
     to_si = conversion(unit, channel)
     if to_si is None:
         says = f"the unit {unit!r} is not known for {channel}" if unit else f"no unit is told for {channel}"
@@ -107,6 +112,15 @@ def values_of(file: Any, name: str, channel: str, warnings: list[str], bad: Mapp
     values = sign * (values * to_si.factor + to_si.offset)
     origin: Origin = "derived" if channel in COMPUTED or _is_computed(told) else "measured"
     return Values(name, np.where(good, values, np.nan), origin)
+
+
+def stored_numbers(variable: Any) -> Array:
+    """The numbers of a variable as stored, (n,), NaN where there is none."""
+    told, stored = attributes(variable), np.atleast_1d(variable[...])
+    missing = [np.atleast_1d(told[key]) for key in ("_FillValue", "missing_value") if key in told]
+    blank = np.isinf(stored) | np.isin(stored, np.concatenate(missing) if missing else [])
+    values = np.clip(stored.astype(np.float64), -LARGEST, LARGEST)
+    return np.where(blank, np.nan, values * float(told.get("scale_factor", 1.0)) + float(told.get("add_offset", 0.0)))
 
 
 def _valid(stored: NDArray[Any], told: dict[str, Any]) -> NDArray[np.bool_]:

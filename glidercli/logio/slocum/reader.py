@@ -20,7 +20,7 @@ from glidercli.log import Log
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import NO_TIME, sampled, usable
 from glidercli.logio.report import FileReport
-from glidercli.logio.slocum.channels import RELAYED, USED, Column, channels_of
+from glidercli.logio.slocum.channels import AT_REST, RECEIVER, RELAYED, USED, Column, channels_of
 from glidercli.logio.slocum.cycles import Cycles, Samples
 from glidercli.logio.slocum.packing import LABEL, is_packed
 from glidercli.logio.slocum.sensors import CLOCKS, clock_of, cycles_of, times_of
@@ -70,7 +70,8 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
     known = np.isfinite(seconds) & (np.abs(seconds) <= LATEST)
     time_ns = np.where(known, np.rint(np.where(known, seconds, 0.0) * 1e9), NO_TIME).astype(np.int64)
     columns, repeated = _columns(cycles, zip(places, samples, strict=True))
-    good[good] = usable(time_ns[good], {name: c.sampled[good] for name, c in columns.items()}, dropped)
+    cells = {name: c.sampled[good] for name, c in columns.items() if name not in RECEIVER}
+    good[good] = usable(time_ns[good], cells, dropped, AT_REST)
     kept_columns = {name: Column(c.sampled[good], c.fresh[good], c.latest[good]) for name, c in columns.items()}
     channels, notes, warnings = channels_of(time_ns[good], kept_columns)
     kept = sampled(time_ns[good], {channel.name: channel for channel in channels})
@@ -114,5 +115,9 @@ def _columns(cycles: Cycles, told: Iterable[tuple[str, Samples]]) -> tuple[dict[
         sampled, fresh = np.full(len(cycles), np.nan), np.zeros(len(cycles), dtype=bool)
         sampled[rows[good]] = np.where(np.isnan(values), np.inf, values)[good]
         fresh[rows[new]] = True
-        columns[name] = Column(sampled, fresh, samples.latest(len(cycles)))
+        latest = samples.latest(len(cycles))
+        if name in RECEIVER and cycles.resumed is not None:
+            behind = np.append(rows[rows >= cycles.resumed], len(cycles))[0]
+            latest[cycles.resumed : behind] = np.nan  # it may have changed in what is damaged
+        columns[name] = Column(sampled, fresh, latest)
     return columns, repeated

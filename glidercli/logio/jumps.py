@@ -1,0 +1,125 @@
+"""Which samples cannot follow one another? Fixes too far apart for the time between them, and spikes of depth.
+
+One rule for the fixes of all families. A glider at the surface drifts with the water, and surface currents reach some
+2.5 m/s (the Agulhas Current, one of the swiftest: peaks exceeding 2.5 m/s, AMS Glossary of Meteorology); under water it
+makes less than 1 m/s of its own, in weaker currents. So two fixes that lie further apart than 3 m/s times the time
+between, and 50 m more, cannot both be right. The 50 m are the errors of both:
+GPS is within 15 m in 95 % of cases at the worst site (GPS Standard Positioning Service Performance Standard, 5th ed.,
+2020), and an antenna that is awash does worse. Fixes of different dives are hours apart, and hardly ever disagree.
+
+The most fixes that agree, each with the next, are kept; of several such choices that with the smoothest way. Where
+these are not more than half of all, the vehicle may have been carried (01600001.dbd of dbdreader drives at 17 m/s), or
+two receivers disagree: then nothing tells what is wrong, and all are kept.
+
+A depth spike leaves the samples before it by more than 3 m/s and 2 m and comes back so within five samples. Gliders
+sink and rise at tenths of a metre per second, which leaves room for one that falls or shoots up; 2 m are noise and
+waves. A step that does not come back is no spike: the samples stay, and no speed is derived across it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["CIRCLE", "DRIFT", "NOISE", "RATE", "agreeing", "beyond", "spikes"]
+
+Array = NDArray[np.float64]
+Times = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+DRIFT = 3.0
+"""m/s over ground, beyond which no glider moves by itself."""
+CIRCLE = 50.0
+"""m, errors of two fixes together."""
+BACK = 10_000
+"""Fixes before one that it may agree with; bounds the time that a hopeless file takes."""
+RATE = 3.0
+"""m/s of depth, beyond which no glider moves."""
+NOISE = 2.0
+"""m, noise of a depth sensor and waves."""
+LONGEST = 5
+"""Samples of a spike."""
+OFTEN = 10
+"""Of so many samples more than one in spikes is something else, such as two sensors that take turns."""
+EARTH = 6_371_000.0
+"""m, mean radius; distances by it are within 0.6 %."""
+
+
+def agreeing(time_ns: Times, latitude: Array, longitude: Array) -> Mask:
+    """The most fixes that one vehicle can have had, (n,), and of several choices the smoothest.
+
+    time_ns : (n,), UTC ns, strictly increasing. latitude, longitude : (n,), deg.
+    """
+    time, place = np.asarray(time_ns * 1e-9, np.float64), _on_sphere(latitude, longitude)
+    if (_apart(place[1:], place[:-1]) <= CIRCLE + DRIFT * np.diff(time)).all():
+        return np.ones(len(time), dtype=bool)
+    length, cost, before = np.ones(len(time), dtype=int), np.zeros(len(time)), np.full(len(time), -1)
+    longest, alone = 0, False  # of the chains so far, and whether one fix alone ends such
+    for j in range(len(time)):
+        first = j - 1 if alone and length[j - 1] == longest else max(0, j - BACK)
+        i = _link(time, place, length, cost, first, j)
+        if i is None and first:
+            first = max(0, j - BACK)
+            i = _link(time, place, length, cost, first, j)
+        if i is not None:
+            before[j], length[j], cost[j] = i, length[i] + 1, cost[i] + _strain(time, place, i, j)[0]
+        alone = length[j] > longest or (alone and length[j] < longest)
+        longest = max(longest, int(length[j]))
+    ends = np.flatnonzero(length == longest)
+    kept = np.zeros(len(time), dtype=bool)
+    i = int(ends[cost[ends].argmin()])
+    while i >= 0:
+        kept[i] = True
+        i = int(before[i])
+    return kept
+
+
+def _link(time: Array, place: Array, length: NDArray[np.int_], cost: Array, first: int, j: int) -> int | None:
+    """The fix from ``first`` on that ends the longest, then the smoothest, chain that fix j can go on; or None."""
+    near = first + np.flatnonzero(_apart(place[first:j], place[j]) <= CIRCLE + DRIFT * (time[j] - time[first:j]))
+    if not len(near):
+        return None
+    near = near[length[near] == length[near].max()]
+    return int(near[(cost[near] + _strain(time, place, near, j)).argmin()])
+
+
+def _strain(time: Array, place: Array, i: int | NDArray[np.int_], j: int) -> Array:
+    """Squared distance by time, m2/s: least in sum where a way is walked at an even pace."""
+    return np.atleast_1d(_apart(place[i], place[j]) ** 2 / (time[j] - time[i]))
+
+
+def _on_sphere(latitude: Array, longitude: Array) -> Array:
+    """Places on a sphere, (n, 3), m."""
+    north, east = np.radians(latitude), np.radians(longitude)
+    axes = np.cos(north) * np.cos(east), np.cos(north) * np.sin(east), np.sin(north)
+    return np.asarray(EARTH * np.stack(axes, axis=-1))
+
+
+def _apart(one: Array, other: Array) -> Array:
+    """Distance through the sphere, m; over the ways of a day it is that along the surface."""
+    return np.asarray(np.linalg.norm(one - other, axis=-1))
+
+
+def beyond(time_ns: Times, depth: Array) -> Mask:
+    """Whether each step from a sample to the next, (n - 1,), is more than a glider can sink or rise.
+
+    time_ns : (n,), UTC ns, strictly increasing. depth : (n,), m.
+    """
+    return np.asarray(np.abs(np.diff(depth)) > NOISE + RATE * np.diff(time_ns) * 1e-9)
+
+
+def spikes(time_ns: Times, depth: Array) -> Mask:
+    """The samples that leave those before and come back, (n,); none where that happens all the time."""
+    found = np.zeros(len(depth), dtype=bool)
+    steps = np.where(beyond(time_ns, depth), np.sign(np.diff(depth)), 0.0)
+    back = 0
+    for k in np.flatnonzero(steps).tolist():
+        if k < back:
+            continue
+        after = slice(k + 2, k + 2 + LONGEST)
+        room = NOISE + RATE * (time_ns[after] - time_ns[k]) * 1e-9
+        home = (steps[k + 1 : k + 1 + LONGEST] == -steps[k]) & (np.abs(depth[after] - depth[k]) <= room)
+        if home.any():
+            back = k + 2 + int(home.argmax())
+            found[k + 1 : back] = True
+    return found if found.sum() * OFTEN <= len(found) else np.zeros(len(depth), dtype=bool)
