@@ -173,7 +173,13 @@ def test_the_scene_faces_the_right_way(tmp_path: Path) -> None:
 def test_hull_track_and_map(tmp_path: Path) -> None:
     found = written(full_log(), tmp_path / "a.mcap")
     hull = found["/viz/vehicle"][0][1].entities[0]
-    assert (hull.cylinders[0].size.z, hull.cylinders[0].size.x) == (1.5, 0.2)
+    ends = [
+        (part.pose.position.x - 0.5 * part.size.z, part.pose.position.x + 0.5 * part.size.z) for part in hull.cylinders
+    ]
+    bow = hull.spheres[0].pose.position.x + 0.5 * hull.spheres[0].size.x
+    assert (min(start for start, _ in ends), bow) == pytest.approx((-0.75, 0.75), abs=1e-15)  # a sum of two
+    assert max(end for _, end in ends) == pytest.approx(bow - 0.1, abs=1e-15)  # half of the nose is beyond the barrel
+    assert {hull.cylinders[0].size.x, hull.cylinders[0].size.y, hull.spheres[0].size.x} == {0.2}
     line = found["/viz/track"][0][1].entities[0]
     assert [point.y for point in line.lines[0].points] == full_log()["east"].values.tolist()
     (feature,) = json.loads(found["/map/track"][0][1].geojson)["features"]
@@ -189,7 +195,7 @@ def test_hull_track_and_map(tmp_path: Path) -> None:
 
 def test_only_what_the_log_has(tmp_path: Path) -> None:
     found = written(depth_log(), tmp_path / "a.mcap")
-    assert found.keys() == {"/log", "/tf_static", "/tf", "/viz/vehicle", "/glider/navigation"}
+    assert found.keys() == {"/log", "/tf_static", "/tf", "/viz/vehicle", "/viz/surface", "/glider/navigation"}
     assert [m.translation.z for _, m in found["/tf"]] == depth_log()["depth"].values.tolist()
     assert any("not to scale" in m.message for _, m in found["/log"])
     assert any("no attitude" in m.message for _, m in found["/log"])
