@@ -16,11 +16,14 @@ FOREVER = np.iinfo(np.int64).max
 
 
 class Latest:
-    """The latest sample of a quantity at any time. known : whether the log has samples of it at all."""
+    """The latest sample of a quantity at any time.
+
+    known : whether the log has samples of it at all. start_ns, last_ns : times of the first and the last one so far.
+    """
 
     def __init__(self, known: bool) -> None:
         self.known = known
-        self.start_ns = FOREVER
+        self.start_ns, self.last_ns = FOREVER, 0
         self._times: Times = np.array([], np.int64)
         self._columns: list[Array] = []
 
@@ -32,7 +35,7 @@ class Latest:
         if self._times.size:
             times = np.concatenate([self._times[-1:], times])
             columns = [np.concatenate([old[-1:], new]) for old, new in zip(self._columns, columns, strict=True)]
-        self.start_ns = min(self.start_ns, int(times[0]))
+        self.start_ns, self.last_ns = min(self.start_ns, int(times[0])), int(times[-1])
         self._times, self._columns = times, columns
 
     def at(self, times: Times, otherwise: Sequence[float] = ()) -> list[Array]:

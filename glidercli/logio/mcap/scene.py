@@ -47,6 +47,7 @@ class Scene:
         self._size, self._kind, self._zero = hull_size(log), log.kind, slide_zero(log)
         self._mass_notes, self._steered = mass_notes(log), "rudder_angle" in log and len(log["rudder_angle"]) > 0
         self._start_ns: int | None = None  # of all that moves
+        self._changed_ns = 0  # when the phase did so last
         self._bounds = np.array([[np.inf] * 3, [-np.inf] * 3])
         self._level = 0.0  # of the sea surface in map_ned, m
         self._told: list[str] = []
@@ -75,6 +76,9 @@ class Scene:
     def lines(self, log: Log, start_ns: int) -> list[Topic]:
         """The topics that show the whole way, when the last piece is there. log : that piece, with its metadata."""
         topics: list[Topic] = [*shapes.map_track(log, self._way.rows(), self._fixes.rows(), start_ns)]
+        if self._phase.known and self._phase.last_ns > self._changed_ns:  # viewers draw a phase up to its next message
+            end = np.array([self._phase.last_ns])
+            topics.append(shapes.phases(end, [_word(code) for code in self._phase.at(end)[0].tolist()]))
         if self._start_ns is None:
             return topics
         size = float(np.linalg.norm(self._bounds[1] - self._bounds[0])) if self._place.known else 0.0
@@ -125,8 +129,10 @@ class Scene:
         before = self._phase.at(times[:1], (np.nan,))[0]
         self._phase.add((times, [codes]))
         changed = np.flatnonzero(codes != np.concatenate([before, codes[:-1]]))
-        words = [PHASES[int(code)] if code in range(len(PHASES)) else "unknown" for code in codes[changed].tolist()]
-        return [shapes.phases(times[changed], words)] if words else []
+        if not changed.size:
+            return []
+        self._changed_ns = int(times[changed[-1]])
+        return [shapes.phases(times[changed], [_word(code) for code in codes[changed].tolist()])]
 
     def _inside(self, piece: Log, start_ns: int) -> list[Topic]:
         """What moves in the hull, or at it: the movable mass and the rudder."""
@@ -167,6 +173,11 @@ class Scene:
             latitude, longitude = fixes[0].tolist()
         places = np.stack(track_of_geodetic(fixes[:, 0], fixes[:, 1], latitude, longitude), axis=-1)
         return places[np.isfinite(places).all(axis=-1)]
+
+
+def _word(code: float) -> str:
+    """A phase in words."""
+    return PHASES[int(code)] if code in range(len(PHASES)) else "unknown"
 
 
 def _place(log: Log) -> Samples:

@@ -110,8 +110,8 @@ def current(times: Times, place: list[Array], velocity: list[Array]) -> Table:
     q_xyzw = [sin_turn * sin_rise, -cos_turn * sin_rise, sin_turn * cos_rise, cos_turn * cos_rise]  # x axis to current
     length = ARROW_SCALE * np.sqrt(u_east**2 + u_north**2 + u_up**2)
     arrow = {
-        "pose": marked_pose(), "shaft_length": slot(7), "head_length": slot(8), "shaft_diameter": 0.2,
-        "head_diameter": 0.6, "color": colour((0.1, 0.8, 0.7, 1.0)),
+        "pose": marked_pose(), "shaft_length": slot(7), "head_length": slot(8), "shaft_diameter": 0.04,
+        "head_diameter": 0.3, "color": colour((0.1, 0.8, 0.7, 1.0)),
     }  # fmt: skip
     template = scene(MARKED_TIME, MAP, "current", {"scale": f"{ARROW_SCALE:.0f} m for 1 m/s"}, arrows=[arrow])
     return Table("/viz/current", times, template, [east, north, -down, *q_xyzw, 0.8 * length, 0.2 * length])

@@ -34,7 +34,7 @@ MARKS = 500
 """Position fixes in the scene at most; /glider/fix has all."""
 MOST_LINES = 60
 """Lines of the surface's grid in each direction at most."""
-_SHAPE = {"shaft": 0.7, "head": 0.3, "thin": 0.03, "thick": 0.09}
+_SHAPE = {"shaft": 0.75, "head": 0.25, "thin": 0.015, "thick": 0.06}
 """Parts of an arrow's length."""
 
 GREEN: Colour = (0.43, 0.8, 0.51, 1.0)

@@ -1,9 +1,9 @@
 """What do glider's own topics hold? /glider/GROUP, one for each family of channels, and /glider/event.
 
 The messages of glider's own topics are described at run time from the channel table: `timestamp`, one double per
-channel in SI units (``pitch_rad``), and a second one for people: angles in degrees (``pitch_deg``), depth as elevation,
-negative down, so that a plot has the surface on top. NaN marks a channel without a sample at that time.
-Field numbers follow the channel table, so that files agree with each other.
+channel in SI units (``pitch_rad``), and a second one for people where tables use another unit (``pitch_deg``); depth is
+there as elevation too, negative down, so that a plot has the surface on top. NaN marks a channel without a sample at
+that time. Field numbers follow the channel table, so that files agree with each other.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def _fields(spec: ChannelSpec) -> dict[str, float]:
     si = spec.name if spec.unit == "1" else f"{spec.name}_{spec.unit.replace('/', '_')}"
     if spec.name == "depth":
         return {si: 1.0, "elevation_m": -1.0}
-    return {si: 1.0, spec.column: spec.factor} if spec.unit.startswith("rad") else {si: 1.0}
+    return {si: 1.0} if spec.factor == 1.0 else {si: 1.0, spec.column: spec.factor}
 
 
 def template_of(kind: type[Any]) -> tuple[Any, list[str]]:
