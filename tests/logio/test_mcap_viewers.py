@@ -18,7 +18,7 @@ from google.protobuf.descriptor_pool import DescriptorPool
 from google.protobuf.message_factory import GetMessageClass
 from mcap.reader import make_reader
 
-from glidercli.channels import CHANNELS
+from glidercli.channels import CHANNELS, PHASES
 from glidercli.log import Channel, Event, Log
 from glidercli.logio.mcap.writer import statement, write_mcap
 
@@ -218,3 +218,132 @@ def test_metadata_and_attachment(tmp_path: Path) -> None:
     assert records["run"] == full_log().metadata
     assert records["origin"]["log"] == records["origin"]["depth"] == "simulated"
     assert (attachment.name, json.loads(attachment.data)) == ("provenance.json", {"seed": 3})
+
+
+def moved(pose: Any, point: Any) -> np.ndarray:
+    """A point of a shape, in the shape's frame."""
+    place = np.array([pose.position.x, pose.position.y, pose.position.z])
+    return place + rotated(pose.orientation, [point.x, point.y, point.z])
+
+
+def moving_log(**told: str) -> Log:
+    """The mass slides forward and turns to 45 deg, the rudder goes to 0.3 rad; attitude is level."""
+    along = np.linspace(0.40, 0.42, N)
+    channels = [channel(name, 0.0) for name in ("roll", "pitch", "heading")]
+    channels += [
+        channel("mass_position", along),
+        channel("mass_rotation", np.linspace(0.0, math.pi / 4, N)[:5], TIMES[:5]),
+    ]
+    return depth_log().with_channels(*channels, channel("rudder_angle", 0.3)).with_metadata(**told)
+
+
+def test_the_movable_mass_slides_and_turns_in_the_hull(tmp_path: Path) -> None:
+    told = {"hull_length_m": "2", "hull_diameter_m": "0.2", "movable_nominal_position_m": "0.4"}
+    found = written(moving_log(**told, movable_eccentricity_m="0.014"), tmp_path / "a.mcap")
+    masses = found["/viz/movable_mass"]
+    assert [t for t, _ in masses] == TIMES.tolist()
+    entity = masses[-1][1].entities[0]
+    assert entity.frame_id == "base_link_fsd"
+    (mass,), rod = entity.cylinders, entity.lines[0]
+    gamma = np.linspace(0.0, math.pi / 4, N)[4]  # held after its last sample
+    arm = 0.32 * 0.2
+    expected = [0.42, -arm * math.sin(gamma), arm * math.cos(gamma)]  # (r_rx, -Rr sin gamma, Rr cos gamma)
+    centre = [mass.pose.position.x, mass.pose.position.y, mass.pose.position.z]
+    np.testing.assert_allclose(centre, expected, atol=1e-15 * 4)  # a few roundings of numbers below 1
+    np.testing.assert_allclose(rotated(mass.pose.orientation, [0.0, 0.0, 1.0]), [1.0, 0.0, 0.0], atol=1e-15 * 8)
+    ends = [[p.x, p.y, p.z] for p in rod.points]
+    assert ends == [[0.42, 0.0, 0.0], centre]
+    told_lines = [m.message for _, m in found["/log"]]
+    assert any("drawn exaggerated: 0.064 m for a true 0.014 m" in text for text in told_lines)
+
+
+def test_a_mass_with_an_unknown_zero_is_drawn_about_its_middle_and_told(tmp_path: Path) -> None:
+    found = written(moving_log(mass_position_zero="the actuator's own"), tmp_path / "a.mcap")
+    along = [m.entities[0].cylinders[0].pose.position.x for _, m in found["/viz/movable_mass"]]
+    assert (min(along), max(along)) == pytest.approx((-0.01, 0.01), abs=1e-15)  # a difference of numbers below 1
+    assert any("about the middle of its range" in m.message for _, m in found["/log"])
+
+
+def test_the_rudder_goes_to_the_side_that_the_glider_turns_to(tmp_path: Path) -> None:
+    found = written(moving_log(), tmp_path / "a.mcap")
+    blade = found["/viz/rudder"][-1][1].entities[0].triangles[0]
+    corners = np.array([moved(blade.pose, point) for point in blade.points])
+    hinge = np.array([blade.pose.position.x, 0.0, 0.0])
+    aft = corners[corners[:, 0].argmin()] - hinge
+    assert math.atan2(aft[1], -aft[0]) == pytest.approx(0.3, abs=1e-12)  # starboard, behind the hinge
+    assert (corners[:, 0] <= hinge[0] + 1e-12).all()
+
+
+def test_the_sea_surface_lies_at_depth_zero(tmp_path: Path) -> None:
+    """A log whose origin is 3 m deep has its surface 3 m above that."""
+    log = full_log().with_channels(channel("down", np.arange(N) * 0.5 - 3.0))
+    sheet = written(log, tmp_path / "a.mcap")["/viz/surface"][0][1].entities[0]
+    assert sheet.frame_id == "map_ned"
+    corners = np.array([[p.x, p.y, p.z] for p in sheet.triangles[0].points])
+    assert set(corners[:, 2]) == {-3.0}
+    assert {p.z for line in sheet.lines for p in line.points} == {-3.0}
+    north = log["north"].values
+    assert corners[:, 0].min() <= north.min()
+    assert corners[:, 0].max() >= north.max()
+
+
+def test_the_track_has_the_colours_of_its_phases(tmp_path: Path) -> None:
+    codes = np.where(np.arange(N) < N // 2, PHASES.index("dive"), PHASES.index("climb"))
+    found = written(full_log().with_channels(channel("phase", codes)), tmp_path / "a.mcap")
+    line = found["/viz/track"][0][1].entities[0].lines[0]
+    colours = [(c.r, c.g, c.b) for c in line.colors]
+    assert len(colours) == len(line.points) == N
+    assert len(set(colours[: N // 2])) == len(set(colours[N // 2 :])) == 1
+    assert colours[0] != colours[-1]
+    words = [(t, m.value) for t, m in found["/viz/phase"]]
+    assert words == [(TIMES[0], "dive"), (TIMES[N // 2], "climb"), (TIMES[-1], "climb")]  # the end, for viewers
+
+
+def test_fixes_stand_at_their_places(tmp_path: Path) -> None:
+    place = {"latitude": np.array([20.0, 20.01]), "longitude": np.array([115.0, 115.02])}
+    fixes = [Channel(name, TIMES[[1, 30]], values, "measured") for name, values in place.items()]
+    found = written(full_log().with_channels(*fixes), tmp_path / "a.mcap")
+    balls = [s.pose.position for s in found["/viz/fixes"][0][1].entities[0].spheres]
+    # a degree of latitude at 20 deg north is 110.7 km, one of longitude 104.6 km: 0.1 % by these digits
+    assert [(b.x, b.y, b.z) for b in balls] == [(0.0, 0.0, 0.0), pytest.approx((1107.0, 2092.0, 0.0), rel=1e-3)]
+    simulated = [Channel(name, TIMES[[1, 30]], values, "simulated") for name, values in place.items()]
+    assert "/viz/fixes" not in written(full_log().with_channels(*simulated), tmp_path / "b.mcap")
+
+
+def test_current_arrows_point_along_the_current(tmp_path: Path) -> None:
+    log = full_log().with_channels(
+        channel("current_east", 0.3), channel("current_north", 0.4), channel("current_up", -1.2)
+    )
+    found = written(log, tmp_path / "a.mcap")
+    arrows = found["/viz/current_profile"][0][1].entities[0].arrows
+    assert len(arrows) == 40
+    for arrow in (arrows[0], arrows[-1]):
+        way = rotated(arrow.pose.orientation, [1.0, 0.0, 0.0])
+        np.testing.assert_allclose(way, np.array([0.4, 0.3, 1.2]) / 1.3, atol=1e-15 * 8)  # north, east, down
+    (told,) = [m.message for _, m in found["/log"] if "fastest" in m.message]
+    scale = float(told.split(" m for 1 m/s")[0].split()[-1])
+    assert arrows[0].shaft_length + arrows[0].head_length == pytest.approx(1.3 * scale, rel=1e-3)  # its four digits
+
+
+def test_depth_is_there_as_elevation_and_other_units_beside_si(tmp_path: Path) -> None:
+    found = written(full_log(), tmp_path / "a.mcap")
+    message = found["/glider/navigation"][3][1]
+    assert message.elevation_m == -message.depth_m == -1.5
+    water, actuators = found["/glider/water"][3][1], found["/glider/actuators"][3][1]
+    assert water.pressure_dbar == pytest.approx(water.pressure_Pa * 1e-4, rel=1e-15)
+    assert actuators.ballast_volume_cm3 == pytest.approx(actuators.ballast_volume_m3 * 1e6, rel=1e-15)
+
+
+@pytest.mark.parametrize("log", [full_log(), moving_log(), Log({}, "reconstruction", {}, event_log().events)])
+def test_what_is_simulated_or_remade_is_said_in_the_scene(log: Log, tmp_path: Path) -> None:
+    found = written(log, tmp_path / "a.mcap")
+    assert found["/log"][0][1].message.startswith(log.kind)
+    if "/viz/vehicle" in found:
+        hull = found["/viz/vehicle"][0][1].entities[0]
+        assert [text.text for text in hull.texts] == [log.kind]
+        assert {pair.key: pair.value for pair in hull.metadata}["log"] == log.kind
+
+
+def test_a_way_beyond_reason_is_drawn_without_a_surface(tmp_path: Path) -> None:
+    log = full_log().with_channels(channel("north", np.linspace(-1e300, 1e300, N)))
+    assert "/viz/surface" not in written(log, tmp_path / "a.mcap")
