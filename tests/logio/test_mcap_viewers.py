@@ -347,3 +347,22 @@ def test_what_is_simulated_or_remade_is_said_in_the_scene(log: Log, tmp_path: Pa
 def test_a_way_beyond_reason_is_drawn_without_a_surface(tmp_path: Path) -> None:
     log = full_log().with_channels(channel("north", np.linspace(-1e300, 1e300, N)))
     assert "/viz/surface" not in written(log, tmp_path / "a.mcap")
+
+
+def test_depth_averaged_currents_stand_above_their_dives(tmp_path: Path) -> None:
+    """Those of the closures, where they are told; what is no closure is left out."""
+    middle = [np.datetime_as_string(np.datetime64(int(TIMES[i]), "ns"), unit="ms") + "Z" for i in (10, 20)]
+    good = {"start": middle[0], "end": middle[1], "current_north_m_s": 0.3, "current_east_m_s": -0.4}
+    closures = [good, {**good, "end": "?"}, {**good, "current_north_m_s": float("nan")}, 7, "x", None]
+    told = {"depth_averaged_current_north_m_s": "1.0", "depth_averaged_current_east_m_s": "0.0"}
+    found = written(full_log().with_metadata(closures=json.dumps(closures), **told), tmp_path / "a.mcap")
+    (arrow,), (label,) = (
+        getattr(found["/viz/current_average"][0][1].entities[0], kind) for kind in ("arrows", "texts")
+    )
+    np.testing.assert_allclose(rotated(arrow.pose.orientation, [1.0, 0.0, 0.0]), [0.6, -0.8, 0.0], atol=1e-15 * 8)
+    assert label.text == "0.50 m/s"
+    assert (arrow.pose.position.x, arrow.pose.position.z) == (pytest.approx(7.5, abs=1e-2), 0.0)  # times of 1 ms
+    own = written(full_log().with_metadata(closures="{", **told), tmp_path / "b.mcap")
+    (arrow,) = own["/viz/current_average"][0][1].entities[0].arrows
+    np.testing.assert_allclose(rotated(arrow.pose.orientation, [1.0, 0.0, 0.0]), [1.0, 0.0, 0.0], atol=1e-15 * 8)
+    assert any("as the vehicle's own software tells it" in m.message for _, m in own["/log"])

@@ -25,7 +25,7 @@ LAYOUTS = {
 TITLE_KEYS = {"foxglove": "foxglovePanelTitle", "lichtblick": "lichtblickPanelTitle"}
 
 NEAR = ("vehicle", "movable_mass", "rudder", "current", "track", "surface")
-FAR = ("vehicle", "movable_mass", "rudder", "track", "surface", "fixes", "current_profile")
+FAR = ("vehicle", "movable_mass", "rudder", "track", "surface", "fixes", "current_profile", "current_average")
 """The topics /viz/NAME that are drawn about the hull, and of the whole flight; a viewer draws none unless told to."""
 COLOURS = ("#4e98e2", "#f5774d", "#5fc27e", "#b98cff", "#f0d05a")
 

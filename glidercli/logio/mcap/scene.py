@@ -15,6 +15,7 @@ from glidercli.frames import quaternion_from_euler_arrays
 from glidercli.log import Log
 from glidercli.logio.drawable import hull_size, mass_notes, number, slide_zero
 from glidercli.logio.mcap import hull, shapes, still
+from glidercli.logio.mcap.averages import averages
 from glidercli.logio.mcap.file import Topic
 from glidercli.logio.mcap.latest import Latest, at_these, moving
 from glidercli.logio.mcap.messages import Array
@@ -90,8 +91,9 @@ class Scene:
         if len(marks):
             topics.append(still.fix_marks(marks, self._fixes.count, size, self._start_ns))
         profile, told = still.current_profile(self._currents.rows(), size, self._start_ns)
-        self._told = [told] if told else []
-        return [*topics, *profile]
+        average, also = self._average(log, size, self._start_ns)
+        self._told = [words for words in (told, also) if words]
+        return [*topics, *profile, *average]
 
     def remarks(self) -> list[str]:
         """What a viewer of the scene must know: what in it is not from the log, or not to scale."""
@@ -110,7 +112,7 @@ class Scene:
         """Keep of a piece what the whole way is drawn from."""
         times, track = piece.together(*TRACK)
         codes = self._phase.at(times, (np.nan,))[0]
-        self._track.add(np.column_stack([*track, codes]))
+        self._track.add(np.column_stack([*track, codes, times]))
         self._way.add(np.stack(piece.together(*TRACK[:2])[1], axis=-1))
         self._fixes.add(np.stack(fixes[1], axis=-1))
         places = np.stack(_place(piece)[1], axis=-1)
@@ -160,6 +162,20 @@ class Scene:
         up, place = at_these(piece, "current_up", times, 0.0), self._place.at(times)
         self._currents.add(np.column_stack([*place, north, east, -up]))
         return [shapes.current(times, place, [east, north, up])]
+
+    def _average(self, log: Log, size: float, time_ns: int) -> tuple[list[Topic], str]:
+        """Depth-averaged currents that the log tells, at the surface above the middle of their dives."""
+        (rows, origin), track = averages(log), self._track.rows()
+        if not len(rows) or not len(track):
+            return [], ""
+        middle = 0.5 * (track[0, 4] + track[-1, 4])
+        at = np.where(np.isnan(rows[:, 0]), middle, rows[:, 0])
+        inside = (at >= track[0, 4]) & (at <= track[-1, 4])
+        north, east = (np.interp(at[inside], track[:, 4], track[:, i]) for i in (0, 1))
+        flat = np.zeros(len(north))
+        placed = np.column_stack([north, east, flat + self._level, rows[inside, 1:], flat])
+        drawn, told = still.current_average(placed, origin, size, time_ns)
+        return list(drawn), told
 
     def _marks(self, log: Log) -> Array:
         """Measured fixes as north and east of the origin, (n, 2), m; none where they cannot be placed."""

@@ -26,7 +26,7 @@ from glidercli.logio.mcap.primitives import (
     text,
 )  # fmt: skip
 
-__all__ = ["current_profile", "fix_marks", "surface", "track"]
+__all__ = ["current_average", "current_profile", "fix_marks", "surface", "track"]
 
 ARROWS = 40
 """Arrows of current in the scene at most, one in each of so many bins of depth."""
@@ -40,11 +40,12 @@ _SHAPE = {"shaft": 0.75, "head": 0.25, "thin": 0.015, "thick": 0.06}
 GREEN: Colour = (0.43, 0.8, 0.51, 1.0)
 ORANGE: Colour = (1.0, 0.62, 0.29, 1.0)
 TEAL: Colour = (0.35, 0.88, 0.8, 1.0)
+VIOLET: Colour = (0.72, 0.55, 1.0, 1.0)
 WHITE: Colour = (1.0, 1.0, 1.0, 1.0)
 SEA: Colour = (0.27, 0.59, 0.82, 0.12)
 SEA_LINES: Colour = (0.43, 0.71, 0.9, 0.4)
 PHASE_COLOURS: dict[str, Colour] = {
-    "surface": GREEN, "dive": (0.34, 0.64, 1.0, 1.0), "climb": ORANGE, "hover": (0.72, 0.55, 1.0, 1.0),
+    "surface": GREEN, "dive": (0.34, 0.64, 1.0, 1.0), "climb": ORANGE, "hover": VIOLET,
     "inflection": (0.94, 0.82, 0.35, 1.0),
 }  # fmt: skip
 
@@ -52,7 +53,7 @@ PHASE_COLOURS: dict[str, Colour] = {
 def track(rows: Array, count: int, origin: str, time_ns: int) -> Messages:
     """/viz/track: the whole way as one line, in the colours of its phases, else of depth; its two ends are named.
 
-    rows : (n, 4) of the ``count`` samples: north, east, down, m, and the phase's code, NaN where there is none.
+    rows : (n, 4 or more) of the ``count`` samples: north, east, down, m, and the phase's code, NaN where there is none.
     """
     places, codes = rows[:, :3], rows[:, 3]
     if np.isin(codes, np.arange(len(PHASES))).all():
@@ -136,6 +137,26 @@ def current_profile(rows: Array, size: float, time_ns: int) -> tuple[list[Messag
     told = f"teal arrows: current at {len(kept)} places, {scale:.4g} m for 1 m/s; the fastest is {fastest:.2f} m/s"
     notes = {"scale": f"{scale:.4g} m for 1 m/s", "fastest": f"{fastest:.3f} m/s", "arrows": f"{len(kept)}"}
     return [single("/viz/current_profile", time_ns, scene(time_ns, NED, "profile", notes, arrows=arrows))], told
+
+
+def current_average(rows: Array, origin: str, size: float, time_ns: int) -> tuple[list[Messages], str]:
+    """/viz/current_average: a depth-averaged current for each dive, above its middle, with its speed; and in words.
+
+    rows : (n, 6), as for ``current_profile``. origin : where they come from. size : of the flight, m.
+    """
+    fastest = float(np.linalg.norm(rows[:, 3:], axis=1).max(initial=0.0))
+    if not 0.0 < fastest < 1e3 or not np.isfinite(rows).all():
+        return [], ""
+    kept, scale = rows[_spread(len(rows), MARKS)], 0.13 * max(size, 10.0) / fastest
+    arrows, labels = [], []
+    for row in kept:
+        arrows.append({**_arrow(row[:3], row[3:] * scale), "color": colour(VIOLET)})
+        north, east, down = (row[:3] + row[3:] * scale).tolist()
+        labels.append(text(f"{np.linalg.norm(row[3:]):.2f} m/s", VIOLET, north, east, down))
+    told = f"violet arrows: depth-averaged current of {len(kept)} dives, {scale:.4g} m for 1 m/s ({origin})"
+    notes = {"scale": f"{scale:.4g} m for 1 m/s", "origin": origin, "arrows": f"{len(kept)} of {len(rows)}"}
+    content = scene(time_ns, NED, "average", notes, arrows=arrows, texts=labels if len(labels) <= ARROWS else [])
+    return [single("/viz/current_average", time_ns, content)], told
 
 
 def _arrow(place: Array, way: Array) -> dict[str, Any]:
