@@ -102,7 +102,7 @@ def test_every_topic_is_there_and_of_the_kind_that_the_panel_draws(layout: Any, 
             if key in panel:
                 assert panel[key] in described
                 assert kind not in SCHEMAS or described[panel[key]].full_name in SCHEMAS[kind]
-        assert panel.get("followTf", "map") in ("map", "base_link_fsd")
+        assert panel.get("followTf", "map") in ("map", "base_enu")
     scenes = {topic for topic, kind in described.items() if kind.full_name in SCHEMAS["3D"]}
     assert drawn == scenes  # nothing that is in the file stays unseen
 

@@ -164,6 +164,12 @@ def test_the_scene_faces_the_right_way(tmp_path: Path) -> None:
     expected = [level * math.sqrt(0.5), level * math.sqrt(0.5), math.sin(-0.4)]  # east, north, up: nose down
     np.testing.assert_allclose(bow, expected, atol=1e-15 * 8)  # a few roundings of numbers below 1
     assert move.translation.z == full_log()["down"].values[-1]
+    level = found["/tf_place"][-1][1]
+    assert (level.parent_frame_id, level.child_frame_id) == ("map", "base_enu")
+    place = [move.translation.x, move.translation.y, move.translation.z]
+    in_map = rotated(static.rotation, place)
+    np.testing.assert_allclose([level.translation.x, level.translation.y, level.translation.z], in_map, rtol=1e-14)
+    assert [level.rotation.x, level.rotation.y, level.rotation.z, level.rotation.w] == [0.0, 0.0, 0.0, 1.0]
     arrow = found["/viz/current"][-1][1].entities[0].arrows[0]
     np.testing.assert_allclose(rotated(arrow.pose.orientation, [1.0, 0.0, 0.0]), [0.0, 1.0, 0.0], atol=1e-15 * 8)
     assert arrow.shaft_length + arrow.head_length == pytest.approx(100.0 * 0.25, rel=1e-15)  # the scale it states
@@ -195,7 +201,15 @@ def test_hull_track_and_map(tmp_path: Path) -> None:
 
 def test_only_what_the_log_has(tmp_path: Path) -> None:
     found = written(depth_log(), tmp_path / "a.mcap")
-    assert found.keys() == {"/log", "/tf_static", "/tf", "/viz/vehicle", "/viz/surface", "/glider/navigation"}
+    assert found.keys() == {
+        "/log",
+        "/tf_static",
+        "/tf",
+        "/tf_place",
+        "/viz/vehicle",
+        "/viz/surface",
+        "/glider/navigation",
+    }
     assert [m.translation.z for _, m in found["/tf"]] == depth_log()["depth"].values.tolist()
     assert any("not to scale" in m.message for _, m in found["/log"])
     assert any("no attitude" in m.message for _, m in found["/log"])

@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import Any
 
 from glidercli.channels import CHANNELS
-from glidercli.logio.mcap.primitives import HULL, MAP
+from glidercli.logio.mcap.primitives import MAP, PLACE
 from glidercli.logio.mcap.topics import field_names
 
 __all__ = ["LAYOUTS", "layout"]
@@ -35,7 +35,7 @@ Tree = str | dict[str, Any]
 def layout(name: str) -> dict[str, Any]:
     """The layout of one of LAYOUTS."""
     panels: dict[str, dict[str, Any]] = {
-        "3D!hull": _view(HULL, "follow-position", 4.0, NEAR),
+        "3D!hull": _view(PLACE, "follow-pose", 4.0, NEAR),
         "3D!track": _view(MAP, "follow-none", 2000.0, FAR),
         "map!track": {
             "customTileUrl": "", "disabledTopics": [], "followTopic": "", "layer": "map", "topicColors": {},

@@ -1,7 +1,9 @@
 """What are the viewers' shapes built of? Frames, poses, colours, texts, and scenes of one entity.
 
 Frames follow the draft REP-156: `map` is east, north, up; `map_ned` stands still under it; `base_link_fsd` (forward,
-starboard, down) is the moving hull. Submessages are set even where they hold nothing but zeros: viewers need them.
+starboard, down) is the moving hull. `base_enu` moves with it and does not turn: a camera that follows it keeps the
+surface above (one that follows a place alone keeps how that frame lay when the panel was opened: a hull's z is down).
+Submessages are set even where they hold nothing but zeros: viewers need them.
 """
 
 from __future__ import annotations
@@ -15,11 +17,11 @@ import numpy as np
 from glidercli.logio.mcap.messages import Array, Messages, message, slot, timestamp
 
 __all__ = [
-    "AFT", "FORWARD", "HULL", "MAP", "NED", "Colour", "colour", "line", "marked_pose", "point", "points", "pose",
-    "scene", "single", "text",
+    "AFT", "FORWARD", "HULL", "MAP", "NED", "PLACE", "Colour", "colour", "line", "marked_pose", "point", "points",
+    "pose", "scene", "single", "text",
 ]  # fmt: skip
 
-MAP, NED, HULL = "map", "map_ned", "base_link_fsd"
+MAP, NED, HULL, PLACE = "map", "map_ned", "base_link_fsd", "base_enu"
 _ROOT = math.sqrt(0.5)
 FORWARD = (0.0, _ROOT, 0.0, _ROOT)
 """Quaternion x, y, z, w that lays a cylinder, which stands along z, along x with its top forward."""

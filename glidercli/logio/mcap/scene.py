@@ -66,7 +66,7 @@ class Scene:
         if not times.size:
             return topics
         motion = times, [*self._place.at(times, (0.0, 0.0, 0.0)), *self._attitude.at(times, LEVEL)]
-        topics = [shapes.transforms(motion), *_poses(place, attitude), *topics]
+        topics = [shapes.transforms(motion), shapes.places(motion), *_poses(place, attitude), *topics]
         if self._start_ns is None:
             self._start_ns = int(times[0])
             topics = [

@@ -13,10 +13,10 @@ import numpy as np
 from glidercli.log import Log
 from glidercli.logio.drawable import number
 from glidercli.logio.mcap.messages import MARKED_TIME, Array, Messages, Table, Times, message, slot, timestamp
-from glidercli.logio.mcap.primitives import HULL, MAP, NED, colour, marked_pose, point, scene, single
+from glidercli.logio.mcap.primitives import HULL, MAP, NED, PLACE, colour, marked_pose, point, scene, single
 from glidercli.places import geodetic_of_track
 
-__all__ = ["Samples", "current", "fixes", "map_track", "phases", "poses", "static", "transforms"]
+__all__ = ["Samples", "current", "fixes", "map_track", "phases", "places", "poses", "static", "transforms"]
 
 Samples = tuple[Times, list[Array]]
 """Times, and the values of some quantities there."""
@@ -45,6 +45,17 @@ def transforms(motion: Samples) -> Table:
     template = message(FrameTransform, timestamp=MARKED_TIME, parent_frame_id=NED, child_frame_id=HULL)
     template.MergeFrom(message(FrameTransform, translation=pose["position"], rotation=pose["orientation"]))
     return Table("/tf", motion[0], template, motion[1])
+
+
+def places(motion: Samples) -> Table:
+    """/tf_place: where the hull is in `map`, not how it lies; columns north, east, down and others."""
+    from foxglove_schemas_protobuf.FrameTransform_pb2 import FrameTransform
+
+    (north, east, down), zero, one = motion[1][:3], np.zeros(len(motion[0])), np.ones(len(motion[0]))
+    pose = marked_pose()
+    template = message(FrameTransform, timestamp=MARKED_TIME, parent_frame_id=MAP, child_frame_id=PLACE)
+    template.MergeFrom(message(FrameTransform, translation=pose["position"], rotation=pose["orientation"]))
+    return Table("/tf_place", motion[0], template, [east, north, -down, zero, zero, zero, one])
 
 
 def poses(motion: Samples) -> Table:
