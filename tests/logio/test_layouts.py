@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from conftest import Run, one_line_error
 from google.protobuf.descriptor_pb2 import FileDescriptorSet
@@ -17,6 +19,8 @@ from viewer_logs import LOGS
 
 from glidercli.channels import CHANNELS
 from glidercli.logio.layouts import LAYOUTS, write_layouts
+from glidercli.logio.mcap.layouts import Sight, sight_of
+from glidercli.logio.mcap.reader import read_mcap_log
 from glidercli.logio.mcap.topics import field_names
 from glidercli.logio.mcap.writer import write_mcap
 
@@ -139,3 +143,27 @@ def test_layouts_that_are_there_are_kept(glider: Run, tmp_path: Path) -> None:
     assert glider("layouts", "-o", ".", "--force").returncode == 0
     assert json.loads((tmp_path / "glider-lichtblick.json").read_text())["configById"]
     assert "is a file; a folder is needed" in one_line_error(glider("layouts", "-o", "glider-lichtblick.json"))
+
+
+def test_the_view_of_the_whole_fits_a_log(glider: Run, tmp_path: Path) -> None:
+    """The trial's track lies within the cone that a camera of 45 deg sees."""
+    assert glider("simulate", "south-china-sea-2011", "-o", "a.mcap").returncode == 0
+    assert glider("layouts", "-o", ".", "--for", "a.mcap").returncode == 0
+    panel = json.loads((tmp_path / "glider-foxglove.json").read_text())["configById"]["3D!track"]
+    log = read_mcap_log(tmp_path / "a.mcap")
+    east, north, up = log["east"].values, log["north"].values, -log["down"].values
+    centre = np.array(panel["cameraState"]["targetOffset"])
+    reach = np.linalg.norm(np.stack([east, north, up], axis=-1) - centre, axis=-1).max()
+    distance = panel["cameraState"]["distance"]
+    assert math.degrees(math.asin(reach / distance)) < 45.0 / 2 + 3.0  # the ball about it; corners may touch the edge
+    assert reach > 0.25 * distance  # and it is not lost in the middle
+
+
+@pytest.mark.parametrize("name", ["one_sample", "events_alone"])
+def test_a_log_with_nothing_to_fit_gets_the_usual_view(name: str) -> None:
+    assert sight_of(LOGS[name]()) == Sight()
+
+
+def test_a_fit_without_a_folder_is_wrong_usage(glider: Run) -> None:
+    assert "-o FOLDER is needed" in one_line_error(glider("layouts", "--for", "a.mcap"), code=2)
+    assert "no such file" in one_line_error(glider("layouts", "--for", "a.mcap", "-o", "."))

@@ -9,13 +9,17 @@ MPL-2.0; facts only). The two differ in the key of a panel's title alone.
 
 from __future__ import annotations
 
-from typing import Any
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from glidercli.channels import CHANNELS
+from glidercli.log import Log
 from glidercli.logio.mcap.primitives import MAP, PLACE
 from glidercli.logio.mcap.topics import field_names
 
-__all__ = ["LAYOUTS", "layout"]
+__all__ = ["LAYOUTS", "Sight", "layout", "sight_of"]
 
 LAYOUTS = {
     "foxglove": "Foxglove: 3-D, map, plots, events",
@@ -32,11 +36,32 @@ COLOURS = ("#4e98e2", "#f5774d", "#5fc27e", "#b98cff", "#f0d05a")
 Tree = str | dict[str, Any]
 
 
-def layout(name: str) -> dict[str, Any]:
-    """The layout of one of LAYOUTS."""
+class Sight(NamedTuple):
+    """What a camera looks at, in `map`: east, north, up, m; and from how far, m."""
+
+    centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    distance: float = 2000.0
+
+
+def sight_of(log: Log) -> Sight:
+    """The whole flight, from its track, else from depth alone; the usual sight where it has neither, or none to see."""
+    place = ("north", "east", "down") if {"north", "east", "down"} <= log.channels.keys() else ("depth",)
+    north, east, down = ([np.zeros(1), np.zeros(1), *log.together(*place)[1]])[-3:]
+    if not len(down):
+        return Sight()
+    ends = [(float(way.min()), float(way.max())) for way in (east, north, -down)]
+    size = math.sqrt(sum((high - low) ** 2 for low, high in ends))
+    if not 0.0 < size < 1e7:
+        return Sight()
+    east_0, north_0, up_0 = (0.5 * (low + high) for low, high in ends)
+    return Sight((east_0, north_0, up_0), 1.2 * max(size, 10.0))
+
+
+def layout(name: str, sight: Sight | None = None) -> dict[str, Any]:
+    """The layout of one of LAYOUTS. sight : of the panel that shows the whole flight."""
     panels: dict[str, dict[str, Any]] = {
-        "3D!hull": _view(PLACE, "follow-pose", 4.0, NEAR),
-        "3D!track": _view(MAP, "follow-none", 2000.0, FAR),
+        "3D!hull": _view(PLACE, "follow-pose", Sight(distance=4.0), NEAR),
+        "3D!track": _view(MAP, "follow-none", sight or Sight(), FAR),
         "map!track": {
             "customTileUrl": "", "disabledTopics": [], "followTopic": "", "layer": "map", "topicColors": {},
             "zoomLevel": 11,
@@ -100,12 +125,12 @@ def layout(name: str) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _view(frame: str, follow: str, distance: float, shown: tuple[str, ...]) -> dict[str, Any]:
-    """A 3-D panel in `map`, whose third axis is up. distance : of the eye, m; from 24 deg above."""
+def _view(frame: str, follow: str, sight: Sight, shown: tuple[str, ...]) -> dict[str, Any]:
+    """A 3-D panel with its third axis up, seen from the south-west and 24 deg above."""
     eye = {
-        "perspective": True, "distance": distance, "phi": 66.0, "thetaOffset": 40.0, "target": [0.0, 0.0, 0.0],
-        "targetOffset": [0.0, 0.0, 0.0], "targetOrientation": [0.0, 0.0, 0.0, 1.0], "fovy": 45.0,
-        "near": 0.01 * distance, "far": 200_000.0,
+        "perspective": True, "distance": sight.distance, "phi": 66.0, "thetaOffset": 40.0, "target": [0.0, 0.0, 0.0],
+        "targetOffset": list(sight.centre), "targetOrientation": [0.0, 0.0, 0.0, 1.0], "fovy": 45.0,
+        "near": 0.01 * sight.distance, "far": max(200_000.0, 10.0 * sight.distance),
     }  # fmt: skip
     return {
         "cameraState": eye, "followMode": follow, "followTf": frame, "layers": {}, "imageMode": {},
