@@ -63,7 +63,7 @@ def vehicle(size: Size, kind: str, time_ns: int) -> Messages:
     }
     content = scene(
         time_ns, HULL, "vehicle", notes, cylinders=[barrel, cone], spheres=[nose], triangles=[_fins(length, diameter)],
-        lines=[line(_edges(length, diameter), DARK, 1.5, 2)], texts=[text(kind, WHITE, z=-0.55 * length)],
+        lines=[line(_edges(length, diameter), DARK, 1.5, 2)], texts=[text(kind, WHITE, z=-0.8 * length)],
     )  # fmt: skip
     return single("/viz/vehicle", time_ns, content)
 
