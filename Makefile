@@ -7,6 +7,8 @@ VENV := .venv
 BIN := $(VENV)/bin
 DEMO := demo
 
+NODE := tests/node/node_modules/.installed
+
 .PHONY: demo test lint bench docs clean
 
 $(VENV)/.installed: pyproject.toml
@@ -16,6 +18,10 @@ $(VENV)/.installed: pyproject.toml
 	$(BIN)/python -m pip install --quiet --upgrade 'pip>=24'
 	$(BIN)/python -m pip install --quiet --editable '.[adcp,test]'
 	touch $@
+
+$(NODE): tests/node/package-lock.json
+	@command -v npm >/dev/null || { echo "npm is missing: the tests with the TypeScript reader of MCAP are skipped"; exit 0; }; \
+	  (cd tests/node && npm ci --silent) && touch $@
 
 demo: $(VENV)/.installed
 	mkdir -p $(DEMO)
@@ -37,7 +43,7 @@ lint: $(VENV)/.installed
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
-test: lint
+test: lint $(NODE)
 	$(BIN)/python -m pytest -n 2
 
 bench: $(VENV)/.installed
@@ -47,6 +53,7 @@ bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/peers.py
 	$(BIN)/python benchmarks/agreement.py
 	$(BIN)/python benchmarks/slocum.py
+	$(BIN)/python benchmarks/viewers.py
 
 clean:
-	rm -rf $(VENV) $(DEMO)
+	rm -rf $(VENV) $(DEMO) tests/node/node_modules

@@ -1,8 +1,13 @@
-"""``glider vehicles`` and ``glider missions``: what is shipped, one plain line each."""
+"""``glider vehicles``, ``glider missions`` and ``glider layouts``: what is shipped, one plain line each."""
 
 from __future__ import annotations
 
-from glidercli.cli.options import Debug, Json, Quiet
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from glidercli.cli.options import Debug, Force, Json, Quiet
 
 
 def vehicles(json: Json = False, quiet: Quiet = False, debug: Debug = False) -> None:
@@ -18,6 +23,31 @@ def missions(json: Json = False, quiet: Quiet = False, debug: Debug = False) -> 
     from glidercli.simulation.mission_file import load_mission
 
     _show({name: load_mission(name)[0].description for name in shipped.missions()}, "missions", json)
+
+
+def layouts(
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FOLDER", help="Write each to FOLDER/glider-NAME.json.")
+    ] = None,
+    fit: Annotated[
+        str | None, typer.Option("--for", metavar="LOG", help="Flight that the view of the whole track is to fit.")
+    ] = None,
+    force: Force = False,
+    json: Json = False,
+    quiet: Quiet = False,
+    debug: Debug = False,
+) -> None:
+    """List the shipped viewer layouts: name, two spaces, description; with -o, write them to import there."""
+    from glidercli.cli.logs_in import LogSource
+    from glidercli.errors import UsageError
+    from glidercli.logio.layouts import LAYOUTS, write_layouts
+
+    if fit is not None and output is None:
+        raise UsageError("--for fits the files that -o FOLDER writes; -o FOLDER is needed")
+    if output is not None:
+        log = None if fit is None else LogSource().reading(fit).log
+        write_layouts(output, force, log)
+    _show(dict(LAYOUTS), "layouts", json)
 
 
 def _show(found: dict[str, str], what: str, json: bool) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import subprocess
 import sys
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mcap.reader import make_reader
 
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import InputError, OutputError
@@ -20,6 +22,7 @@ from glidercli.logio.mcap.reader import is_mcap, read_mcap_log
 from glidercli.logio.mcap.writer import write_mcap
 
 START = 1_313_000_000_123_456_789
+DATA = Path(__file__).parents[1] / "data" / "mcap"
 PYMCAP = Path(sys.executable).with_name("pymcap-cli")
 
 
@@ -219,3 +222,32 @@ def test_attachments_are_the_files(tmp_path: Path) -> None:
     assert found["provenance.json"] == b'{"program": "glidercli"}'
     doctor = subprocess.run([PYMCAP, "doctor", tmp_path / "a.mcap"], capture_output=True, text=True, check=False)
     assert doctor.returncode == 0, doctor.stdout
+
+
+def test_a_file_of_the_earlier_layout_is_read() -> None:
+    """It was written by the commit before the layout changed; what it holds was worked out by hand."""
+    log = read_mcap_log(DATA / "layout-1.mcap")
+    start, n = 1_313_000_000_123_456_789, np.arange(30)
+    times = start + n * 1_000_000_001
+    assert list(log.channels) == ["depth", "pressure", "pitch", "latitude", "phase", "ballast_volume"]
+    assert log["depth"].values.tolist() == (n / 3).tolist()
+    assert log["depth"].time_ns.tolist() == times.tolist()
+    assert log["pitch"].values.tolist() == (-0.4 - n / 1e3)[::3].tolist()
+    assert log["latitude"].origin == "measured"
+    assert log["ballast_volume"].values.tolist() == (1e-4 * n).tolist()
+    assert log.metadata == {"title": "layout 1", "provenance": "{}"}  # the second came at the end
+    assert log.events == (Event("apogee", int(times[15]), 5.0),)
+
+
+def test_what_is_known_late_is_told_beside_what_was_told_first(tmp_path: Path) -> None:
+    log = full_log(20)
+    first = dataclasses.replace(log, metadata={"title": "a", "kept": "b"}, events=())
+    with (tmp_path / "a.mcap").open("wb") as stream:
+        file = mcap_writer.McapLog(stream)
+        file.add(first)
+        file.close(dataclasses.replace(log, metadata={"title": "c", "kept": "b", "more": ""}))
+    assert read_mcap_log(tmp_path / "a.mcap").metadata == {"title": "c", "kept": "b", "more": ""}
+    with (tmp_path / "a.mcap").open("rb") as stream:
+        told = [(item.name, item.metadata) for item in make_reader(stream).iter_metadata()]
+    assert [name for name, _ in told] == ["run", "origin", "version", "run, told at the end"]
+    assert told[-1][1] == {"title": "c", "more": ""}

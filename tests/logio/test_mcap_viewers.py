@@ -18,7 +18,7 @@ from google.protobuf.descriptor_pool import DescriptorPool
 from google.protobuf.message_factory import GetMessageClass
 from mcap.reader import make_reader
 
-from glidercli.channels import CHANNELS
+from glidercli.channels import CHANNELS, PHASES
 from glidercli.log import Channel, Event, Log
 from glidercli.logio.mcap.writer import statement, write_mcap
 
@@ -164,6 +164,12 @@ def test_the_scene_faces_the_right_way(tmp_path: Path) -> None:
     expected = [level * math.sqrt(0.5), level * math.sqrt(0.5), math.sin(-0.4)]  # east, north, up: nose down
     np.testing.assert_allclose(bow, expected, atol=1e-15 * 8)  # a few roundings of numbers below 1
     assert move.translation.z == full_log()["down"].values[-1]
+    level = found["/tf_place"][-1][1]
+    assert (level.parent_frame_id, level.child_frame_id) == ("map", "base_enu")
+    place = [move.translation.x, move.translation.y, move.translation.z]
+    in_map = rotated(static.rotation, place)
+    np.testing.assert_allclose([level.translation.x, level.translation.y, level.translation.z], in_map, rtol=1e-14)
+    assert [level.rotation.x, level.rotation.y, level.rotation.z, level.rotation.w] == [0.0, 0.0, 0.0, 1.0]
     arrow = found["/viz/current"][-1][1].entities[0].arrows[0]
     np.testing.assert_allclose(rotated(arrow.pose.orientation, [1.0, 0.0, 0.0]), [0.0, 1.0, 0.0], atol=1e-15 * 8)
     assert arrow.shaft_length + arrow.head_length == pytest.approx(100.0 * 0.25, rel=1e-15)  # the scale it states
@@ -173,7 +179,13 @@ def test_the_scene_faces_the_right_way(tmp_path: Path) -> None:
 def test_hull_track_and_map(tmp_path: Path) -> None:
     found = written(full_log(), tmp_path / "a.mcap")
     hull = found["/viz/vehicle"][0][1].entities[0]
-    assert (hull.cylinders[0].size.z, hull.cylinders[0].size.x) == (1.5, 0.2)
+    ends = [
+        (part.pose.position.x - 0.5 * part.size.z, part.pose.position.x + 0.5 * part.size.z) for part in hull.cylinders
+    ]
+    bow = hull.spheres[0].pose.position.x + 0.5 * hull.spheres[0].size.x
+    assert (min(start for start, _ in ends), bow) == pytest.approx((-0.75, 0.75), abs=1e-15)  # a sum of two
+    assert max(end for _, end in ends) == pytest.approx(bow - 0.1, abs=1e-15)  # half of the nose is beyond the barrel
+    assert {hull.cylinders[0].size.x, hull.cylinders[0].size.y, hull.spheres[0].size.x} == {0.2}
     line = found["/viz/track"][0][1].entities[0]
     assert [point.y for point in line.lines[0].points] == full_log()["east"].values.tolist()
     (feature,) = json.loads(found["/map/track"][0][1].geojson)["features"]
@@ -189,7 +201,15 @@ def test_hull_track_and_map(tmp_path: Path) -> None:
 
 def test_only_what_the_log_has(tmp_path: Path) -> None:
     found = written(depth_log(), tmp_path / "a.mcap")
-    assert found.keys() == {"/log", "/tf_static", "/tf", "/viz/vehicle", "/glider/navigation"}
+    assert found.keys() == {
+        "/log",
+        "/tf_static",
+        "/tf",
+        "/tf_place",
+        "/viz/vehicle",
+        "/viz/surface",
+        "/glider/navigation",
+    }
     assert [m.translation.z for _, m in found["/tf"]] == depth_log()["depth"].values.tolist()
     assert any("not to scale" in m.message for _, m in found["/log"])
     assert any("no attitude" in m.message for _, m in found["/log"])
@@ -212,3 +232,151 @@ def test_metadata_and_attachment(tmp_path: Path) -> None:
     assert records["run"] == full_log().metadata
     assert records["origin"]["log"] == records["origin"]["depth"] == "simulated"
     assert (attachment.name, json.loads(attachment.data)) == ("provenance.json", {"seed": 3})
+
+
+def moved(pose: Any, point: Any) -> np.ndarray:
+    """A point of a shape, in the shape's frame."""
+    place = np.array([pose.position.x, pose.position.y, pose.position.z])
+    return place + rotated(pose.orientation, [point.x, point.y, point.z])
+
+
+def moving_log(**told: str) -> Log:
+    """The mass slides forward and turns to 45 deg, the rudder goes to 0.3 rad; attitude is level."""
+    along = np.linspace(0.40, 0.42, N)
+    channels = [channel(name, 0.0) for name in ("roll", "pitch", "heading")]
+    channels += [
+        channel("mass_position", along),
+        channel("mass_rotation", np.linspace(0.0, math.pi / 4, N)[:5], TIMES[:5]),
+    ]
+    return depth_log().with_channels(*channels, channel("rudder_angle", 0.3)).with_metadata(**told)
+
+
+def test_the_movable_mass_slides_and_turns_in_the_hull(tmp_path: Path) -> None:
+    told = {"hull_length_m": "2", "hull_diameter_m": "0.2", "movable_nominal_position_m": "0.4"}
+    found = written(moving_log(**told, movable_eccentricity_m="0.014"), tmp_path / "a.mcap")
+    masses = found["/viz/movable_mass"]
+    assert [t for t, _ in masses] == TIMES.tolist()
+    entity = masses[-1][1].entities[0]
+    assert entity.frame_id == "base_link_fsd"
+    (mass,), rod = entity.cylinders, entity.lines[0]
+    gamma = np.linspace(0.0, math.pi / 4, N)[4]  # held after its last sample
+    arm = 0.32 * 0.2
+    expected = [0.42, -arm * math.sin(gamma), arm * math.cos(gamma)]  # (r_rx, -Rr sin gamma, Rr cos gamma)
+    centre = [mass.pose.position.x, mass.pose.position.y, mass.pose.position.z]
+    np.testing.assert_allclose(centre, expected, atol=1e-15 * 4)  # a few roundings of numbers below 1
+    np.testing.assert_allclose(rotated(mass.pose.orientation, [0.0, 0.0, 1.0]), [1.0, 0.0, 0.0], atol=1e-15 * 8)
+    ends = [[p.x, p.y, p.z] for p in rod.points]
+    assert ends == [[0.42, 0.0, 0.0], centre]
+    told_lines = [m.message for _, m in found["/log"]]
+    assert any("drawn exaggerated: 0.064 m for a true 0.014 m" in text for text in told_lines)
+
+
+def test_a_mass_with_an_unknown_zero_is_drawn_about_its_middle_and_told(tmp_path: Path) -> None:
+    found = written(moving_log(mass_position_zero="the actuator's own"), tmp_path / "a.mcap")
+    along = [m.entities[0].cylinders[0].pose.position.x for _, m in found["/viz/movable_mass"]]
+    assert (min(along), max(along)) == pytest.approx((-0.01, 0.01), abs=1e-15)  # a difference of numbers below 1
+    assert any("about the middle of its range" in m.message for _, m in found["/log"])
+
+
+def test_the_rudder_goes_to_the_side_that_the_glider_turns_to(tmp_path: Path) -> None:
+    found = written(moving_log(), tmp_path / "a.mcap")
+    blade = found["/viz/rudder"][-1][1].entities[0].triangles[0]
+    corners = np.array([moved(blade.pose, point) for point in blade.points])
+    hinge = np.array([blade.pose.position.x, 0.0, 0.0])
+    aft = corners[corners[:, 0].argmin()] - hinge
+    assert math.atan2(aft[1], -aft[0]) == pytest.approx(0.3, abs=1e-12)  # starboard, behind the hinge
+    assert (corners[:, 0] <= hinge[0] + 1e-12).all()
+
+
+def test_the_sea_surface_lies_at_depth_zero(tmp_path: Path) -> None:
+    """A log whose origin is 3 m deep has its surface 3 m above that."""
+    log = full_log().with_channels(channel("down", np.arange(N) * 0.5 - 3.0))
+    sheet = written(log, tmp_path / "a.mcap")["/viz/surface"][0][1].entities[0]
+    assert sheet.frame_id == "map_ned"
+    corners = np.array([[p.x, p.y, p.z] for p in sheet.triangles[0].points])
+    assert set(corners[:, 2]) == {-3.0}
+    assert {p.z for line in sheet.lines for p in line.points} == {-3.0}
+    north = log["north"].values
+    assert corners[:, 0].min() <= north.min()
+    assert corners[:, 0].max() >= north.max()
+
+
+def test_the_track_has_the_colours_of_its_phases(tmp_path: Path) -> None:
+    codes = np.where(np.arange(N) < N // 2, PHASES.index("dive"), PHASES.index("climb"))
+    found = written(full_log().with_channels(channel("phase", codes)), tmp_path / "a.mcap")
+    line = found["/viz/track"][0][1].entities[0].lines[0]
+    colours = [(c.r, c.g, c.b) for c in line.colors]
+    assert len(colours) == len(line.points) == N
+    assert len(set(colours[: N // 2])) == len(set(colours[N // 2 :])) == 1
+    assert colours[0] != colours[-1]
+    words = [(t, m.value) for t, m in found["/viz/phase"]]
+    assert words == [(TIMES[0], "dive"), (TIMES[N // 2], "climb"), (TIMES[-1], "climb")]  # the end, for viewers
+
+
+def test_fixes_stand_at_their_places(tmp_path: Path) -> None:
+    place = {"latitude": np.array([20.0, 20.01]), "longitude": np.array([115.0, 115.02])}
+    fixes = [Channel(name, TIMES[[1, 30]], values, "measured") for name, values in place.items()]
+    found = written(full_log().with_channels(*fixes), tmp_path / "a.mcap")
+    balls = [s.pose.position for s in found["/viz/fixes"][0][1].entities[0].spheres]
+    # a degree of latitude at 20 deg north is 110.7 km, one of longitude 104.6 km: 0.1 % by these digits
+    assert [(b.x, b.y, b.z) for b in balls] == [(0.0, 0.0, 0.0), pytest.approx((1107.0, 2092.0, 0.0), rel=1e-3)]
+    simulated = [Channel(name, TIMES[[1, 30]], values, "simulated") for name, values in place.items()]
+    assert "/viz/fixes" not in written(full_log().with_channels(*simulated), tmp_path / "b.mcap")
+
+
+def test_current_arrows_point_along_the_current(tmp_path: Path) -> None:
+    log = full_log().with_channels(
+        channel("current_east", 0.3), channel("current_north", 0.4), channel("current_up", -1.2)
+    )
+    found = written(log, tmp_path / "a.mcap")
+    arrows = found["/viz/current_profile"][0][1].entities[0].arrows
+    assert len(arrows) == 40
+    for arrow in (arrows[0], arrows[-1]):
+        way = rotated(arrow.pose.orientation, [1.0, 0.0, 0.0])
+        np.testing.assert_allclose(way, np.array([0.4, 0.3, 1.2]) / 1.3, atol=1e-15 * 8)  # north, east, down
+    (told,) = [m.message for _, m in found["/log"] if "fastest" in m.message]
+    scale = float(told.split(" m for 1 m/s")[0].split()[-1])
+    assert arrows[0].shaft_length + arrows[0].head_length == pytest.approx(1.3 * scale, rel=1e-3)  # its four digits
+
+
+def test_depth_is_there_as_elevation_and_other_units_beside_si(tmp_path: Path) -> None:
+    found = written(full_log(), tmp_path / "a.mcap")
+    message = found["/glider/navigation"][3][1]
+    assert message.elevation_m == -message.depth_m == -1.5
+    water, actuators = found["/glider/water"][3][1], found["/glider/actuators"][3][1]
+    assert water.pressure_dbar == pytest.approx(water.pressure_Pa * 1e-4, rel=1e-15)
+    assert actuators.ballast_volume_cm3 == pytest.approx(actuators.ballast_volume_m3 * 1e6, rel=1e-15)
+
+
+@pytest.mark.parametrize("log", [full_log(), moving_log(), Log({}, "reconstruction", {}, event_log().events)])
+def test_what_is_simulated_or_remade_is_said_in_the_scene(log: Log, tmp_path: Path) -> None:
+    found = written(log, tmp_path / "a.mcap")
+    assert found["/log"][0][1].message.startswith(log.kind)
+    if "/viz/vehicle" in found:
+        hull = found["/viz/vehicle"][0][1].entities[0]
+        assert [text.text for text in hull.texts] == [log.kind]
+        assert {pair.key: pair.value for pair in hull.metadata}["log"] == log.kind
+
+
+def test_a_way_beyond_reason_is_drawn_without_a_surface(tmp_path: Path) -> None:
+    log = full_log().with_channels(channel("north", np.linspace(-1e300, 1e300, N)))
+    assert "/viz/surface" not in written(log, tmp_path / "a.mcap")
+
+
+def test_depth_averaged_currents_stand_above_their_dives(tmp_path: Path) -> None:
+    """Those of the closures, where they are told; what is no closure is left out."""
+    middle = [np.datetime_as_string(np.datetime64(int(TIMES[i]), "ns"), unit="ms") + "Z" for i in (10, 20)]
+    good = {"start": middle[0], "end": middle[1], "current_north_m_s": 0.3, "current_east_m_s": -0.4}
+    closures = [good, {**good, "end": "?"}, {**good, "current_north_m_s": float("nan")}, 7, "x", None]
+    told = {"depth_averaged_current_north_m_s": "1.0", "depth_averaged_current_east_m_s": "0.0"}
+    found = written(full_log().with_metadata(closures=json.dumps(closures), **told), tmp_path / "a.mcap")
+    (arrow,), (label,) = (
+        getattr(found["/viz/current_average"][0][1].entities[0], kind) for kind in ("arrows", "texts")
+    )
+    np.testing.assert_allclose(rotated(arrow.pose.orientation, [1.0, 0.0, 0.0]), [0.6, -0.8, 0.0], atol=1e-15 * 8)
+    assert label.text == "0.50 m/s"
+    assert (arrow.pose.position.x, arrow.pose.position.z) == (pytest.approx(7.5, abs=1e-2), 0.0)  # times of 1 ms
+    own = written(full_log().with_metadata(closures="{", **told), tmp_path / "b.mcap")
+    (arrow,) = own["/viz/current_average"][0][1].entities[0].arrows
+    np.testing.assert_allclose(rotated(arrow.pose.orientation, [1.0, 0.0, 0.0]), [1.0, 0.0, 0.0], atol=1e-15 * 8)
+    assert any("as the vehicle's own software tells it" in m.message for _, m in own["/log"])

@@ -20,7 +20,7 @@ from glidercli.log import Channel, Event, Log, Origin
 from glidercli.logio.mcap.file import MAGIC
 from glidercli.logio.mcap.messages import Array, decoded, message_class
 from glidercli.logio.mcap.topics import EVENT_TOPIC, field_names, template_of
-from glidercli.logio.mcap.writer import FORMAT
+from glidercli.logio.mcap.writer import AT_THE_END, FORMATS
 from glidercli.logio.reader import Part
 from glidercli.logio.report import FileReport
 
@@ -82,7 +82,10 @@ def read_mcap_log(path: Path) -> Log:
             _check_sums(stream)
             stream.seek(0)
             reader = SeekingReader(stream)
-            notes = {record.name: record.metadata for record in reader.iter_metadata()}
+            notes: dict[str, dict[str, str]] = {}
+            for record in reader.iter_metadata():
+                name = record.name.removesuffix(AT_THE_END)
+                notes[name] = record.metadata if name == record.name else {**notes.get(name, {}), **record.metadata}
             _check_written_by_glider(path, notes)
             summary = reader.get_summary()
             if summary is None:
@@ -100,8 +103,9 @@ def _check_written_by_glider(path: Path, notes: Notes) -> None:
     told = notes.get("version", {})
     if not told.get("program", "").startswith("glidercli ") or not {"run", "origin"} <= notes.keys():
         raise InputError(path, "is an MCAP file that glider did not write; one made by glider -o NAME.mcap is needed")
-    if told.get("format") != FORMAT:
-        raise InputError(path, f"has layout {told.get('format')} of {told['program']}; layout {FORMAT} can be read")
+    if told.get("format") not in FORMATS:
+        allowed = " and ".join(FORMATS)
+        raise InputError(path, f"has layout {told.get('format')} of {told['program']}; layouts {allowed} can be read")
 
 
 def _check_sums(stream: IO[bytes]) -> None:

@@ -1,31 +1,26 @@
-"""What do the viewers' messages look like? Foxglove's own: transforms, poses, fixes, map, and shapes in 3D.
+"""What do the viewers' messages look like? Foxglove's own: transforms, poses, fixes, phases, the map and the current.
 
-Frames follow the draft REP-156: `map` is east, north, up; `map_ned` stands still under it; `base_link_fsd` (forward,
-starboard, down) is the moving hull. On a seek a viewer restores the last message of a topic, so what belongs together
-in the scene is one message. Submessages are set even where empty: viewers need them.
+On a seek a viewer restores the last message of a topic, so what belongs together is one message.
 """
 
 from __future__ import annotations
 
 import json
 import math
-from typing import Any
 
 import numpy as np
 
 from glidercli.log import Log
 from glidercli.logio.drawable import number
 from glidercli.logio.mcap.messages import MARKED_TIME, Array, Messages, Table, Times, message, slot, timestamp
+from glidercli.logio.mcap.primitives import HULL, MAP, NED, PLACE, colour, marked_pose, point, scene, single
 from glidercli.places import geodetic_of_track
 
-__all__ = [
-    "Samples", "current", "fixes", "map_track", "poses", "static", "track", "transforms", "vehicle",
-]  # fmt: skip
+__all__ = ["Samples", "current", "fixes", "map_track", "phases", "places", "poses", "static", "transforms"]
 
 Samples = tuple[Times, list[Array]]
 """Times, and the values of some quantities there."""
 
-MAP, NED, HULL = "map", "map_ned", "base_link_fsd"
 ARROW_SCALE = 100.0
 """m of arrow for 1 m/s of current: a current of 0.1 m/s is seen beside the hull and does not hide it."""
 _ROOT = math.sqrt(0.5)
@@ -37,26 +32,37 @@ def static(time_ns: int) -> Messages:
 
     transform = {
         "timestamp": timestamp(time_ns), "parent_frame_id": MAP, "child_frame_id": NED,
-        "translation": _of("xyz", 0.0, 0.0, 0.0), "rotation": _of("xyzw", _ROOT, _ROOT, 0.0, 0.0),
+        "translation": point(0.0, 0.0, 0.0), "rotation": dict(zip("xyzw", (_ROOT, _ROOT, 0.0, 0.0), strict=True)),
     }  # fmt: skip
-    return _single("/tf_static", time_ns, message(FrameTransforms, transforms=[transform]))
+    return single("/tf_static", time_ns, message(FrameTransforms, transforms=[transform]))
 
 
 def transforms(motion: Samples) -> Table:
     """/tf: the hull in `map_ned`; columns north, east, down, x, y, z, w."""
     from foxglove_schemas_protobuf.FrameTransform_pb2 import FrameTransform
 
-    pose = _marked_pose()
+    pose = marked_pose()
     template = message(FrameTransform, timestamp=MARKED_TIME, parent_frame_id=NED, child_frame_id=HULL)
     template.MergeFrom(message(FrameTransform, translation=pose["position"], rotation=pose["orientation"]))
     return Table("/tf", motion[0], template, motion[1])
+
+
+def places(motion: Samples) -> Table:
+    """/tf_place: where the hull is in `map`, not how it lies; columns north, east, down and others."""
+    from foxglove_schemas_protobuf.FrameTransform_pb2 import FrameTransform
+
+    (north, east, down), zero, one = motion[1][:3], np.zeros(len(motion[0])), np.ones(len(motion[0]))
+    pose = marked_pose()
+    template = message(FrameTransform, timestamp=MARKED_TIME, parent_frame_id=MAP, child_frame_id=PLACE)
+    template.MergeFrom(message(FrameTransform, translation=pose["position"], rotation=pose["orientation"]))
+    return Table("/tf_place", motion[0], template, [east, north, -down, zero, zero, zero, one])
 
 
 def poses(motion: Samples) -> Table:
     """/glider/pose: the hull in `map_ned`; columns north, east, down, x, y, z, w."""
     from foxglove_schemas_protobuf.PoseInFrame_pb2 import PoseInFrame
 
-    template = message(PoseInFrame, timestamp=MARKED_TIME, frame_id=NED, pose=_marked_pose())
+    template = message(PoseInFrame, timestamp=MARKED_TIME, frame_id=NED, pose=marked_pose())
     return Table("/glider/pose", motion[0], template, motion[1])
 
 
@@ -65,7 +71,7 @@ def fixes(found: Samples, altitude: Array) -> Table:
     from foxglove_schemas_protobuf.LocationFix_pb2 import LocationFix
 
     place = {"latitude": slot(0), "longitude": slot(1), "altitude": slot(2), "position_covariance": [0.0] * 9}
-    color = _of("rgba", 1.0, 0.5, 0.0, 1.0)
+    color = colour((1.0, 0.5, 0.0, 1.0))
     template = message(LocationFix, timestamp=MARKED_TIME, frame_id=MAP, color=color, **place)
     return Table("/glider/fix", found[0], template, [*found[1], altitude])
 
@@ -89,38 +95,18 @@ def map_track(log: Log, way: Array, fixed: Array, time_ns: int) -> list[Messages
     if not points:
         return []
     kind, places = ("LineString", points) if len(points) > 1 else ("Point", points[0])
-    feature = {"type": "Feature", "properties": {"name": "track"}, "geometry": {"type": kind, "coordinates": places}}
+    style = {"color": "#3399ff", "weight": 3}
+    told = {"name": f"track ({log.kind})", "style": style}
+    feature = {"type": "Feature", "properties": told, "geometry": {"type": kind, "coordinates": places}}
     text = json.dumps({"type": "FeatureCollection", "features": [feature]}, allow_nan=False)
-    return [_single("/map/track", time_ns, GeoJSON(geojson=text))]
+    return [single("/map/track", time_ns, GeoJSON(geojson=text))]
 
 
-def vehicle(size: tuple[float, float, bool], time_ns: int) -> Messages:
-    """/viz/vehicle: a hull along x with a red nose and wings; the wings only show which way it lies.
+def phases(times: Times, words: list[str]) -> Messages:
+    """/viz/phase: the flight phase, from each change on."""
+    from foxglove_schemas_protobuf.KeyValuePair_pb2 import KeyValuePair
 
-    size : as ``hull_size`` gives it.
-    """
-    length, diameter, to_scale = size
-    hull = {
-        "pose": _pose(0.0, 0.0, 0.0, (0.0, _ROOT, 0.0, _ROOT)), "size": _of("xyz", diameter, diameter, length),
-        "bottom_scale": 1.0, "top_scale": 1.0, "color": _of("rgba", 1.0, 0.8, 0.0, 1.0),
-    }  # fmt: skip
-    red, grey = _of("rgba", 0.9, 0.1, 0.1, 1.0), _of("rgba", 0.3, 0.3, 0.3, 1.0)
-    nose = {"pose": _pose(0.5 * length, 0.0, 0.0), "size": _of("xyz", diameter, diameter, diameter), "color": red}
-    span = _of("xyz", 0.1 * length, 0.6 * length, 0.1 * diameter)
-    wings = {"pose": _pose(0.0, 0.0, 0.0), "size": span, "color": grey}
-    notes = {"hull": "to scale" if to_scale else "not to scale", "wings": "not to scale"}
-    content = _scene(time_ns, HULL, "vehicle", notes, cylinders=[hull], spheres=[nose], cubes=[wings])
-    return _single("/viz/vehicle", time_ns, content)
-
-
-def track(points: Array, count: int, origin: str, time_ns: int) -> Messages:
-    """/viz/track: the whole track as one line. points : (n, 3) of the ``count`` samples, north, east, down, m."""
-    line = {
-        "pose": _pose(0.0, 0.0, 0.0), "thickness": 2.0, "scale_invariant": True,
-        "color": _of("rgba", 0.2, 0.6, 1.0, 1.0), "points": [_of("xyz", *point) for point in points.tolist()],
-    }  # fmt: skip
-    notes = {"points": f"{len(points)} of {count}", "origin": origin}
-    return _single("/viz/track", time_ns, _scene(time_ns, NED, "track", notes, lines=[line]))
+    return Messages("/viz/phase", times, [message(KeyValuePair, key="phase", value=word) for word in words])
 
 
 def current(times: Times, place: list[Array], velocity: list[Array]) -> Table:
@@ -135,39 +121,8 @@ def current(times: Times, place: list[Array], velocity: list[Array]) -> Table:
     q_xyzw = [sin_turn * sin_rise, -cos_turn * sin_rise, sin_turn * cos_rise, cos_turn * cos_rise]  # x axis to current
     length = ARROW_SCALE * np.sqrt(u_east**2 + u_north**2 + u_up**2)
     arrow = {
-        "pose": _marked_pose(), "shaft_length": slot(7), "head_length": slot(8), "shaft_diameter": 0.2,
-        "head_diameter": 0.6, "color": _of("rgba", 0.1, 0.8, 0.7, 1.0),
+        "pose": marked_pose(), "shaft_length": slot(7), "head_length": slot(8), "shaft_diameter": 0.04,
+        "head_diameter": 0.3, "color": colour((0.1, 0.8, 0.7, 1.0)),
     }  # fmt: skip
-    template = _scene(MARKED_TIME, MAP, "current", {"scale": f"{ARROW_SCALE:.0f} m for 1 m/s"}, arrows=[arrow])
+    template = scene(MARKED_TIME, MAP, "current", {"scale": f"{ARROW_SCALE:.0f} m for 1 m/s"}, arrows=[arrow])
     return Table("/viz/current", times, template, [east, north, -down, *q_xyzw, 0.8 * length, 0.2 * length])
-
-
-def _of(names: str, *values: float) -> dict[str, float]:
-    """A submessage with one-letter fields, as in _of("xyz", 1.0, 2.0, 3.0)."""
-    return dict(zip(names, values, strict=True))
-
-
-def _pose(x: float, y: float, z: float, q_xyzw: tuple[float, ...] = (0.0, 0.0, 0.0, 1.0)) -> dict[str, Any]:
-    return {"position": _of("xyz", x, y, z), "orientation": _of("xyzw", *q_xyzw)}
-
-
-def _marked_pose() -> dict[str, Any]:
-    """A pose with marks 0 to 6."""
-    return _pose(slot(0), slot(1), slot(2), (slot(3), slot(4), slot(5), slot(6)))
-
-
-def _single(name: str, time_ns: int, content: Any) -> Messages:
-    return Messages(name, np.array([time_ns], np.int64), [content])
-
-
-def _scene(time_ns: int | dict[str, int], frame: str, name: str, notes: dict[str, str], **drawn: Any) -> Any:
-    """A SceneUpdate of one entity that stays until the next of its name."""
-    from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
-
-    entity = {
-        "timestamp": timestamp(time_ns) if isinstance(time_ns, int) else time_ns,
-        "frame_id": frame, "id": name, "lifetime": {"seconds": 0}, "frame_locked": True,
-        "metadata": [{"key": key, "value": value} for key, value in notes.items()],
-        **drawn,
-    }  # fmt: skip
-    return message(SceneUpdate, entities=[entity])

@@ -1,8 +1,9 @@
 """What do glider's own topics hold? /glider/GROUP, one for each family of channels, and /glider/event.
 
 The messages of glider's own topics are described at run time from the channel table: `timestamp`, one double per
-channel in SI units (``pitch_rad``), and for angles a second one in degrees for people (``pitch_deg``). NaN marks a
-channel without a sample at that time. Field numbers follow the channel table, so that files agree with each other.
+channel in SI units (``pitch_rad``), and a second one for people where tables use another unit (``pitch_deg``); depth is
+there as elevation too, negative down, so that a plot has the surface on top. NaN marks a channel without a sample at
+that time. Field numbers follow the channel table, so that files agree with each other.
 """
 
 from __future__ import annotations
@@ -22,9 +23,16 @@ EVENT_TOPIC = "/glider/event"
 
 
 def field_names(spec: ChannelSpec) -> tuple[str, ...]:
-    """Names of a channel's fields: SI first (``pitch_rad``), then degrees where it is an angle (``pitch_deg``)."""
+    """Names of a channel's fields: SI first (``pitch_rad``), then that for people, if any (``pitch_deg``)."""
+    return tuple(_fields(spec))
+
+
+def _fields(spec: ChannelSpec) -> dict[str, float]:
+    """The channel's fields, and what the SI value is multiplied by for each."""
     si = spec.name if spec.unit == "1" else f"{spec.name}_{spec.unit.replace('/', '_')}"
-    return (si, spec.column) if spec.unit.startswith("rad") else (si,)
+    if spec.name == "depth":
+        return {si: 1.0, "elevation_m": -1.0}
+    return {si: 1.0} if spec.factor == 1.0 else {si: 1.0, spec.column: spec.factor}
 
 
 def template_of(kind: type[Any]) -> tuple[Any, list[str]]:
@@ -69,7 +77,7 @@ class ChannelTopics:
             for spec in family:
                 values = np.full(len(time_ns), np.nan)
                 values[np.searchsorted(time_ns, piece[spec.name].time_ns)] = piece[spec.name].values
-                columns += [values * factor for factor in (1.0, spec.factor)[: len(field_names(spec))]]
+                columns += [values * factor for factor in _fields(spec).values()]
             found.append(Table(topic, time_ns, template, columns, notes))
         return found
 

@@ -22,10 +22,14 @@ from glidercli.logio.mcap.scene import Scene
 from glidercli.logio.mcap.topics import ChannelTopics, event_topics
 from glidercli.provenance import version
 
-__all__ = ["FORMAT", "McapLog", "statement", "write_mcap"]
+__all__ = ["AT_THE_END", "FORMAT", "FORMATS", "McapLog", "statement", "write_mcap"]
 
-FORMAT = "1"
+FORMAT = "2"
 """Raised when a reader of the earlier layout would misread a file."""
+FORMATS = ("1", FORMAT)
+"""Layouts that can be read. In 1 a metadata record that came again replaced the one before it."""
+AT_THE_END = ", told at the end"
+"""Ending of the name of a metadata record with what came to be known while the file was written."""
 PIECE = 65536
 """Samples of a channel that are made into messages at once: at most 60 MB."""
 
@@ -100,8 +104,12 @@ class McapLog:
             "version": {"program": f"glidercli {version()}", "format": FORMAT},
         }
         for name, entries in told.items():
-            if self._told.get(name) != entries:
+            before = self._told.get(name)
+            if before is None or not before.keys() <= entries.keys():
                 self._file.metadata(name, entries)
+            elif before != entries:
+                later = {key: text for key, text in entries.items() if before.get(key) != text}
+                self._file.metadata(name + AT_THE_END, later)
         self._told = told
 
 

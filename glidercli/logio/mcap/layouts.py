@@ -1,0 +1,180 @@
+"""What do Foxglove and Lichtblick show of a flight? A layout for each, which their "import from file" takes.
+
+A layout is JSON: `configById` with the settings of each panel under TYPE!NAME, `layout`, a tree of rows and columns of
+these names, and what else a viewer saves (`globalVariables`, `userNodes`, `playbackConfig`). Facts: the layout editor's
+sources of Lichtblick (lichtblick-suite/lichtblick, packages/suite-base: panels/index.ts has the types, each panel's
+types.ts its settings) and of the last open Foxglove Studio, from which it comes (npm @foxglove/studio-base 1.48.0,
+MPL-2.0; facts only). The two differ in the key of a panel's title alone.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from glidercli.channels import CHANNELS
+from glidercli.log import Log
+from glidercli.logio.mcap.primitives import MAP, PLACE
+from glidercli.logio.mcap.topics import field_names
+
+__all__ = ["LAYOUTS", "Sight", "layout", "sight_of"]
+
+LAYOUTS = {
+    "foxglove": "Foxglove: 3-D, map, plots, events",
+    "lichtblick": "Lichtblick, the open viewer: the same panels",
+}
+"""Names of the layouts, and what each is for."""
+TITLE_KEYS = {"foxglove": "foxglovePanelTitle", "lichtblick": "lichtblickPanelTitle"}
+
+NEAR = ("vehicle", "movable_mass", "rudder", "current", "track", "surface")
+FAR = ("vehicle", "movable_mass", "rudder", "track", "surface", "fixes", "current_profile", "current_average")
+"""The topics /viz/NAME that are drawn about the hull, and of the whole flight; a viewer draws none unless told to."""
+COLOURS = ("#4e98e2", "#f5774d", "#5fc27e", "#b98cff", "#f0d05a")
+
+Tree = str | dict[str, Any]
+
+
+class Sight(NamedTuple):
+    """What a camera looks at, in `map`: east, north, up, m; and from how far, m."""
+
+    centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    distance: float = 2000.0
+
+
+def sight_of(log: Log) -> Sight:
+    """The whole flight, from its track, else from depth alone; the usual sight where it has neither, or none to see."""
+    place = ("north", "east", "down") if {"north", "east", "down"} <= log.channels.keys() else ("depth",)
+    north, east, down = ([np.zeros(1), np.zeros(1), *log.together(*place)[1]])[-3:]
+    if not len(down):
+        return Sight()
+    ends = [(float(way.min()), float(way.max())) for way in (east, north, -down)]
+    size = math.sqrt(sum((high - low) ** 2 for low, high in ends))
+    if not 0.0 < size < 1e7:
+        return Sight()
+    east_0, north_0, up_0 = (0.5 * (low + high) for low, high in ends)
+    return Sight((east_0, north_0, up_0), 1.2 * max(size, 10.0))
+
+
+def layout(name: str, sight: Sight | None = None) -> dict[str, Any]:
+    """The layout of one of LAYOUTS. sight : of the panel that shows the whole flight."""
+    panels: dict[str, dict[str, Any]] = {
+        "3D!hull": _view(PLACE, "follow-pose", Sight(distance=4.0), NEAR),
+        "3D!track": _view(MAP, "follow-none", sight or Sight(), FAR),
+        "map!track": {
+            "customTileUrl": "", "disabledTopics": [], "followTopic": "", "layer": "map", "topicColors": {},
+            "zoomLevel": 11,
+        },
+        "StateTransitions!phase": {"paths": [_path("/viz/phase.value", "phase")], "isSynced": True},
+        "RosOut!log": {"searchTerms": [], "minLogLevel": 1, "topicToRender": "/log"},
+        "RawMessages!event": _raw("/glider/event"),
+        "RawMessages!navigation": _raw("/glider/navigation"),
+        "SourceInfo!topics": {},
+        "Plot!depth": {**_plot("depth"), "paths": [_path("/glider/navigation.elevation_m", "-depth", COLOURS[0])]},
+        "Plot!attitude": _plot("pitch", "roll"),
+        "Plot!heading": _plot("heading"),
+        "Plot!rates": _plot("p", "q", "r"),
+        "Plot!mass_position": _plot("mass_position"),
+        "Plot!angles": _plot("mass_rotation", "rudder_angle"),
+        "Plot!buoyancy": _plot("net_buoyancy"),
+        "Plot!ballast": _plot("ballast_volume"),
+        "Plot!temperature": _plot("temperature", "conservative_temperature"),
+        "Plot!salinity": _plot("salinity", "absolute_salinity"),
+        "Plot!density": _plot("density"),
+        "Plot!conductivity": _plot("conductivity"),
+        "Plot!current": _plot("current_east", "current_north", "current_up"),
+        "Plot!speed": _plot("speed_through_water", "vertical_speed"),
+        "Plot!flow": _plot("angle_of_attack", "sideslip"),
+    }  # fmt: skip
+    titles = {
+        "3D!hull": "hull and movable mass", "3D!track": "track, sea surface, current", "map!track": "map",
+        "StateTransitions!phase": "flight phase", "RosOut!log": "log: what this is, events",
+        "RawMessages!event": "events", "RawMessages!navigation": "navigation", "SourceInfo!topics": "topics",
+        "Plot!depth": "depth, m, negative down", "Plot!attitude": "pitch (nose up), roll (starboard down), deg",
+        "Plot!heading": "heading, deg clockwise from north", "Plot!rates": "turn rates about the body axes, deg/s",
+        "Plot!mass_position": "movable mass along the hull, m forward", "Plot!angles": "mass rotation, rudder, deg",
+        "Plot!buoyancy": "net buoyancy, kg, sinking positive", "Plot!ballast": "ballast volume, cm3",
+        "Plot!temperature": "temperature, degC", "Plot!salinity": "practical salinity; absolute, g/kg",
+        "Plot!density": "density, kg/m3", "Plot!conductivity": "conductivity, S/m",
+        "Plot!current": "current to the east, north and up, m/s",
+        "Plot!speed": "speed through water, vertical speed (down), m/s",
+        "Plot!flow": "angle of attack, sideslip, deg",
+    }  # fmt: skip
+    for panel, settings in panels.items():
+        settings[TITLE_KEYS[name]] = titles[panel]
+    panels["Tab!where"] = _tabs({"track": "3D!track", "map": "map!track"})
+    panels["Tab!plots"] = _tabs(
+        {
+            "attitude": _column("Plot!attitude", "Plot!heading", "Plot!rates"),
+            "actuators": _column("Plot!mass_position", "Plot!angles", "Plot!buoyancy", "Plot!ballast"),
+            "water": _column("Plot!temperature", "Plot!salinity", "Plot!density", "Plot!conductivity"),
+            "current": "Plot!current",
+            "motion": _column("Plot!speed", "Plot!flow"),
+        }
+    )
+    panels["Tab!words"] = _tabs({
+        "log": "RosOut!log", "events": "RawMessages!event", "navigation": "RawMessages!navigation",
+        "topics": "SourceInfo!topics",
+    })  # fmt: skip
+    left = _split("column", "3D!hull", _split("column", "Tab!where", "Tab!words", 68.0), 42.0)
+    right = _split("column", _split("column", "Plot!depth", "StateTransitions!phase", 74.0), "Tab!plots", 42.0)
+    return {
+        "configById": panels, "globalVariables": {}, "userNodes": {}, "playbackConfig": {"speed": 5},
+        "layout": _split("row", left, right, 52.0),
+    }  # fmt: skip
+
+
+def _view(frame: str, follow: str, sight: Sight, shown: tuple[str, ...]) -> dict[str, Any]:
+    """A 3-D panel with its third axis up, seen from the south-west and 24 deg above."""
+    eye = {
+        "perspective": True, "distance": sight.distance, "phi": 66.0, "thetaOffset": 40.0, "target": [0.0, 0.0, 0.0],
+        "targetOffset": list(sight.centre), "targetOrientation": [0.0, 0.0, 0.0, 1.0], "fovy": 45.0,
+        "near": 0.01 * sight.distance, "far": max(200_000.0, 10.0 * sight.distance),
+    }  # fmt: skip
+    return {
+        "cameraState": eye, "followMode": follow, "followTf": frame, "layers": {}, "imageMode": {},
+        "scene": {"transforms": {"showLabel": False, "axisScale": 0.0, "lineWidth": 0.0, "enablePreloading": True}},
+        "transforms": {}, "topics": {f"/viz/{name}": {"visible": True} for name in shown},
+    }  # fmt: skip
+
+
+def _plot(*names: str) -> dict[str, Any]:
+    """A plot of channels against time, in the units for people."""
+    paths = []
+    for name, shade in zip(names, COLOURS, strict=False):
+        spec = CHANNELS[name]
+        label = name.replace("_", " ")
+        paths.append(_path(f"/glider/{spec.group}.{field_names(spec)[-1]}", label, shade))
+    return {
+        "paths": paths, "showXAxisLabels": True, "showYAxisLabels": True, "showLegend": True,
+        "legendDisplay": "floating", "showPlotValuesInLegend": False, "isSynced": True, "xAxisVal": "timestamp",
+        "sidebarDimension": 240,
+    }  # fmt: skip
+
+
+def _path(value: str, label: str, shade: str | None = None) -> dict[str, Any]:
+    path: dict[str, Any] = {"value": value, "enabled": True, "timestampMethod": "receiveTime", "label": label}
+    return path if shade is None else {**path, "color": shade, "showLine": True}
+
+
+def _raw(topic: str) -> dict[str, Any]:
+    return {
+        "topicPath": topic, "diffEnabled": False, "diffMethod": "custom", "diffTopicPath": "",
+        "showFullMessageForDiff": False,
+    }  # fmt: skip
+
+
+def _tabs(tabs: dict[str, Tree]) -> dict[str, Any]:
+    return {"activeTabIdx": 0, "tabs": [{"title": title, "layout": tree} for title, tree in tabs.items()]}
+
+
+def _split(direction: str, first: Tree, second: Tree, percentage: float) -> dict[str, Any]:
+    return {"direction": direction, "first": first, "second": second, "splitPercentage": percentage}
+
+
+def _column(*panels: str) -> Tree:
+    """Panels above each other, of equal height."""
+    if len(panels) == 1:
+        return panels[0]
+    return _split("column", panels[0], _column(*panels[1:]), 100.0 / len(panels))
