@@ -50,7 +50,7 @@ def saved(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
 
 
 def ran(*command: Any, **options: Any) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=120, **options)
+    return subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=300, **options)
 
 
 def rerun(folder: Path, *arguments: Any) -> subprocess.CompletedProcess[str]:

@@ -22,7 +22,7 @@ HOSTILE = [
 
 
 def mission() -> Log:
-    return simulate("sawtooth-transect").log
+    return simulate("sawtooth-transect", every=20.0).log
 
 
 def seaexplorer() -> Log:

@@ -120,8 +120,9 @@ class Scene:
             if np.isinf(self._bounds).all():
                 _, (down, depth) = piece.together("down", "depth")
                 self._level = float(down[0] - depth[0]) if len(down) else 0.0
-            corners = np.concatenate([self._bounds, places, places * [1.0, 1.0, 0.0] + [0.0, 0.0, self._level]])
-            self._bounds = np.stack([corners[[0, *range(2, len(corners))]].min(axis=0), corners[1:].max(axis=0)])
+            least, most = places.min(axis=0), places.max(axis=0)
+            least[2], most[2] = min(least[2], self._level), max(most[2], self._level)  # the surface is part of it
+            self._bounds = np.stack([np.minimum(self._bounds[0], least), np.maximum(self._bounds[1], most)])
 
     def _phases(self, piece: Log) -> list[Topic]:
         """/viz/phase: each change of the phase, in words."""
