@@ -64,6 +64,7 @@ def _text(d: dict[str, Any]) -> list[str]:
         lines += ["", f"{'dive':>4}  {'start, UTC':<19}  {'lasts':>8}  {'deepest':>9}"]
         rows = [
             f"{i:>4}  {_moment(dive['start'])}  {_span(dive['duration_s']):>8}  {dive['deepest_m']:>7.1f} m"
+            + ("" if dive["gap_s"] is None else f"  with a gap of {_span(dive['gap_s'])}")
             for i, dive in enumerate(d["dives"], 1)
         ]
         lines += _shortened(rows, "dives")

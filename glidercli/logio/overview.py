@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from glidercli.channels import CHANNELS
-from glidercli.dives import phases
+from glidercli.dives import LEAST_GAP, MANY, cuts, long_gaps, phases
 from glidercli.log import Channel, Log
 from glidercli.logio.derived.closure import closures_in
 from glidercli.logio.reading import Reading
@@ -19,9 +19,8 @@ from glidercli.logio.report import FileReport
 
 __all__ = ["Overview", "Sampling", "Yo", "overview"]
 
-MANY = 5.0
-"""Intervals between samples of so many times the usual one, and of more than a minute, are gaps."""
-LEAST_GAP = 60.0  # s
+MINUTE = 60.0
+"""s; intervals between samples of more, and of more than MANY times the usual one, are gaps of a channel."""
 USUAL = (
     "depth", "pitch", "roll", "heading", "latitude", "temperature", "salinity", "mass_position", "ballast_volume",
 )  # fmt: skip
@@ -33,7 +32,7 @@ INSTEAD = {"ballast_volume": ("net_buoyancy",), "salinity": ("conductivity", "ab
 class Sampling:
     """How a channel is sampled.
 
-    interval : usual time between samples, s (median), None of a single one. gaps : longer ones, see MANY.
+    interval : usual time between samples, s (median), None of a single one. gaps : longer ones, see MINUTE.
     longest : the longest time between samples, s, and after_ns : the sample before it.
     """
 
@@ -65,11 +64,15 @@ class Sampling:
 
 @dataclasses.dataclass(frozen=True)
 class Yo:
-    """A dive and the climb after it; times UTC ns, depth m."""
+    """A dive and the climb after it; times UTC ns, depth m.
+
+    gap : the longest time within it without a sample of depth, s, where that is a long gap; else None.
+    """
 
     start_ns: int
     end_ns: int
     deepest: float
+    gap: float | None
 
     def document(self) -> dict[str, Any]:
         """As JSON."""
@@ -78,6 +81,7 @@ class Yo:
             "end": iso(self.end_ns),
             "duration_s": (self.end_ns - self.start_ns) * 1e-9,
             "deepest_m": self.deepest,
+            "gap_s": self.gap,
         }
 
 
@@ -128,23 +132,28 @@ def _sampling(channel: Channel) -> Sampling:
         return Sampling(channel, None, 0, None, None)
     usual = float(np.median(steps))
     widest = int(steps.argmax())
-    gaps = int((steps > max(MANY * usual, LEAST_GAP)).sum())
+    gaps = int((steps > max(MANY * usual, MINUTE)).sum())
     return Sampling(channel, usual, gaps, float(steps[widest]), int(channel.time_ns[widest]))
 
 
 def _dives(log: Log) -> tuple[Yo, ...]:
-    """Each descent with the ascent that follows it, or without one."""
+    """Each descent with the ascent that follows it, or without one where none does before the next cut."""
     if "depth" not in log:
         return ()
     found: list[Yo] = []
     legs = phases(log)
-    for i, leg in enumerate(legs):
+    apart = cuts(log)[:, 0]
+    gaps = long_gaps(log["depth"].time_ns)
+    for leg, after in itertools.zip_longest(legs, legs[1:]):
         if leg.name != "dive":
             continue
-        climb = legs[i + 1] if i + 1 < len(legs) and legs[i + 1].name == "climb" else leg
-        depth = log["depth"].sliced(leg.start_ns, climb.end_ns).values
+        near = after is not None and np.searchsorted(apart, leg.start_ns) == np.searchsorted(apart, after.start_ns)
+        last = after if near and after.name == "climb" else leg
+        depth = log["depth"].sliced(leg.start_ns, last.end_ns).values
         if len(depth):
-            found.append(Yo(leg.start_ns, climb.end_ns, float(depth.max())))
+            inside = np.diff(np.clip(gaps, leg.start_ns, last.end_ns)) * 1e-9
+            longest = float(inside.max(initial=0.0))
+            found.append(Yo(leg.start_ns, last.end_ns, float(depth.max()), longest if longest > LEAST_GAP else None))
     return tuple(found)
 
 
