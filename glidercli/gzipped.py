@@ -7,12 +7,14 @@ from pathlib import Path
 
 from glidercli.errors import InputError
 
-__all__ = ["beginning", "is_gzip", "unpacked"]
+__all__ = ["DAMAGED", "beginning", "is_gzip", "unpacked"]
 
 PIECE = 4096
 """Bytes unpacked at a time, so that what stands before a damage is not lost."""
 LEAST, RATIO = 64_000_000, 100
 """Data may unpack to so many bytes, or so many times their own; tables of numbers pack to a tenth, not a hundredth."""
+DAMAGED = "gzip data cut short or damaged: only what could be unpacked was read"
+"""The error of a file whose gzip data are not whole."""
 _GZIP = b"\x1f\x8b"
 _WINDOW = 31  # zlib's way to say gzip
 

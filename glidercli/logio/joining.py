@@ -15,8 +15,8 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.errors import InputError
 from glidercli.log import Channel, Event, Log, Origin
+from glidercli.logio.alike import alike, with_note
 from glidercli.logio.derived.closure import closures_in
 from glidercli.logio.derived.motion import with_phase
 from glidercli.logio.reader import Part
@@ -27,7 +27,6 @@ __all__ = ["joined"]
 FOREVER = np.iinfo(np.int64).max
 FAR = 86400 * 10**9
 """Files further apart in time than this are joined, and it is said, ns."""
-PLACE = ("origin_latitude_deg", "origin_longitude_deg")
 
 
 def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]:
@@ -36,9 +35,9 @@ def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]
     ``parts`` is emptied, so that what has been joined need not be in memory twice. A dive without a recorded phase has
     it from depth beside dives that have one; not where all files are this program's ``own``.
 
-    Raises InputError where origins, vehicles or the places of tracks differ.
+    Raises InputError where the files cannot be of one flight (alike.py).
     """
-    _check_alike(parts)
+    parts[:] = alike(parts)
     reports = {part.report.path: part.report for part in parts}
     dives: dict[str, list[Part]] = {}
     holders: dict[str, list[Part]] = {}
@@ -72,28 +71,6 @@ def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]
     if not own and any("phase" in log for log in kept):
         kept = [with_phase(log) for log in kept]
     return _one(kept), [reports[path] for path in paths]
-
-
-def _check_alike(parts: list[Part]) -> None:
-    """Refuse what cannot be one flight: each is set against the earliest."""
-    ordered = sorted(parts, key=lambda part: part.log.start_ns)
-    first = ordered[0]
-    place: Part | None = None
-    for part in ordered:
-        path, beside = part.report.path, first.report.path
-        if part.log.origin != first.log.origin:
-            raise InputError(path, f"is {part.log.origin}, {beside} is {first.log.origin}; read them one by one")
-        platforms = [item.log.metadata.get("platform", "") for item in (first, part)]
-        if all(platforms) and platforms[0] != platforms[1]:
-            raise InputError(path, f"is of {platforms[1]}, {beside} of {platforms[0]}; read them one by one")
-        if "north" in part.log:
-            if place is not None and _place(place.log) != _place(part.log):
-                raise InputError(path, "has a track about another origin than the files before; read it by itself")
-            place = place or part
-
-
-def _place(log: Log) -> list[str | None]:
-    return [log.metadata.get(key) for key in PLACE]
 
 
 def _fuller(part: Part, others: list[Part]) -> Part | None:
@@ -133,7 +110,7 @@ def _apart(dive: list[Part]) -> list[list[Part]]:
                 f"{_span([part])}: shares no time with {before[0].report.path.name} of the same dive, {_span(before)}; "
                 "both are kept, is a clock wrong?"
             )
-            part = _with_note(part, note)
+            part = with_note(part, note)
         groups.append([part])
     if len(groups) == 1:
         return [dive]  # in the given order: of two samples at one time the first file's is kept
@@ -147,9 +124,12 @@ def _span(parts: list[Part]) -> str:
     return f"{first} to {last}"
 
 
-def _with_note(part: Part, note: str) -> Part:
-    report = dataclasses.replace(part.report, warnings=(*part.report.warnings, note))
-    return dataclasses.replace(part, report=report)
+def _long(time_ns: int) -> str:
+    """A time of more than a day, ns, in words: 36 days; 2 years and 34 days."""
+    days = round(time_ns / FAR)
+    years, rest = divmod(days, 365)
+    told = [f"{count} {word}{'' if count == 1 else 's'}" for count, word in ((years, "year"), (rest, "day")) if count]
+    return " and ".join(told)
 
 
 def _without_yielded(dive: list[Part]) -> list[Part]:
@@ -163,7 +143,7 @@ def _without_yielded(dive: list[Part]) -> list[Part]:
             count = sum(len(part.log[name]) for name in given)
             note = f"{', '.join(given)}: {count} values left out, another file of the dive gives them"
             times = np.unique(np.concatenate([c.time_ns for c in channels.values()] or [part.record_ns[:0]]))
-            part = _with_note(dataclasses.replace(part, log=dataclasses.replace(part.log, channels=channels)), note)
+            part = with_note(dataclasses.replace(part, log=dataclasses.replace(part.log, channels=channels)), note)
             part = _keeping(part, np.isin(part.record_ns, times), "no other value than those left out")
         left.append(part)
     return left
@@ -186,8 +166,8 @@ def _after(part: Part, reached: dict[str, int]) -> Part:
     if end is None:
         return part
     if part.log.start_ns - end > FAR:
-        days = (part.log.start_ns - end) / FAR
-        part = _with_note(part, f"starts {days:.1f} days after the file before it; joined all the same")
+        note = f"starts {_long(part.log.start_ns - end)} after the end of the files before it; joined all the same"
+        part = with_note(part, note)
     if part.log.start_ns > end:
         return part
     part = _keeping(part, part.record_ns > end, "time not after the file before it")

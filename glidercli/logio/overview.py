@@ -21,6 +21,10 @@ __all__ = ["Overview", "Sampling", "Yo", "overview"]
 
 MINUTE = 60.0
 """s; intervals between samples of more, and of more than MANY times the usual one, are gaps of a channel."""
+FAR = 86400 * 10**9
+"""ns; files further apart than this may not belong together."""
+FEW = 5
+"""Names that a line tells."""
 USUAL = (
     "depth", "pitch", "roll", "heading", "latitude", "temperature", "salinity", "mass_position", "ballast_volume",
 )  # fmt: skip
@@ -90,6 +94,7 @@ class Overview:
     """What a recording holds.
 
     missing : what one would look for and not find, a line each. unread : columns with data that are not read.
+    silence : begin and end of the longest time without a sample of any channel, UTC ns, if it is more than a day.
     """
 
     log: Log
@@ -98,6 +103,7 @@ class Overview:
     dives: tuple[Yo, ...]
     missing: tuple[str, ...]
     unread: tuple[str, ...]
+    silence: tuple[int, int] | None
 
     def document(self) -> dict[str, Any]:
         """As JSON."""
@@ -108,6 +114,9 @@ class Overview:
             "start": iso(self.log.start_ns),
             "end": iso(self.log.end_ns),
             "duration_s": (self.log.end_ns - self.log.start_ns) * 1e-9,
+            "silence": None
+            if self.silence is None
+            else dict(zip(("start", "end"), map(iso, self.silence), strict=True)),
             "files": [report.document() for report in self.files],
             "channels": [channel.document() for channel in self.channels],
             "dives": [dive.document() for dive in self.dives],
@@ -123,7 +132,7 @@ def overview(reading: Reading) -> Overview:
     """What a reading holds."""
     log = reading.log
     channels = tuple(_sampling(channel) for channel in log.channels.values() if len(channel))
-    return Overview(log, reading.files, channels, _dives(log), tuple(_missing(reading)), reading.unread)
+    return Overview(log, reading.files, channels, _dives(log), tuple(_missing(reading)), reading.unread, _silence(log))
 
 
 def _sampling(channel: Channel) -> Sampling:
@@ -160,6 +169,8 @@ def _dives(log: Log) -> tuple[Yo, ...]:
 def _missing(reading: Reading) -> list[str]:
     """Files that belong to what was read and are not there; usual channels without a sample."""
     lines = [f"{report.path.name}: {report.error}" for report in reading.files if report.error]
+    if reading.nameless:
+        lines.append(f"the vehicle of {_first_of(reading.nameless)}, joined with {reading.log.metadata['platform']}")
     lines += [f"{name}, which goes with {beside}, is not among the files" for name, beside in reading.partners]
     numbers: dict[str, set[int]] = {}
     for dive in reading.dives:
@@ -172,6 +183,21 @@ def _missing(reading: Reading) -> list[str]:
         if not any(len(reading.log.channels.get(other, ())) for other in (name, *INSTEAD.get(name, ()))):
             lines.append(f"no {name.replace('_', ' ')}")
     return lines
+
+
+def _first_of(names: tuple[str, ...]) -> str:
+    """Names, or the first of many."""
+    return ", ".join(names) if len(names) <= FEW else f"{names[0]} and {len(names) - 1} more files"
+
+
+def _silence(log: Log) -> tuple[int, int] | None:
+    """The longest time of more than a day without a sample of any channel, UTC ns; None where there is none."""
+    times = np.unique(np.concatenate([channel.time_ns for channel in log.channels.values()]))
+    steps = np.diff(times)
+    if not len(steps) or steps.max() <= FAR:
+        return None
+    at = int(steps.argmax())
+    return int(times[at]), int(times[at + 1])
 
 
 def _gaps(numbers: set[int]) -> str:

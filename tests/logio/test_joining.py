@@ -170,3 +170,16 @@ def test_density_takes_no_position_from_another_year(tmp_path: Path) -> None:
     wanted = gsw.rho_t_exact(placed, t[~off], p[~off] / 1e4)
     np.testing.assert_allclose(density[~off], wanted, atol=1e-4)  # the positions of the fixes vary by 0.1 deg at most
     assert f"reference salinity for {int(off.sum())} samples" in log.metadata["density_note"]
+
+
+def test_the_order_in_which_files_are_given_changes_no_value(tmp_path: Path) -> None:
+    """Two navigation files of one dive that overlap and differ: one is of another folder, or was mended by hand."""
+    whole = LOGS / "sea035.12.gli.sub.37"
+    for folder, old, new in (("a", "", ""), ("b", ";117;", ";100;")):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / whole.name).write_text(whole.read_text("latin-1").replace(old, new), "latin-1")
+    files = sorted(tmp_path.glob("*/*"))
+    forward, backward = read(files).log, read(files[::-1]).log
+    assert forward.metadata == backward.metadata
+    for name, channel in forward.channels.items():
+        np.testing.assert_array_equal(channel.values, backward[name].values)

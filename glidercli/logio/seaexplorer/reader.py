@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
-from glidercli.gzipped import beginning, unpacked
+from glidercli.gzipped import DAMAGED, beginning, unpacked
 from glidercli.log import Log
+from glidercli.logio.cut_text import CUT, ends_open
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import sampled, to_ns, usable
 from glidercli.logio.report import FileReport
@@ -66,14 +67,15 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
     table = {name: values[good] for name, values in table.items()}
     channels, warnings = channels_of(time_ns[good], table)
     named = NAME.match(path.name)
-    whose = {"platform": f"SeaExplorer {named[1]}"} if named else {}
+    whose = {"platform": f"SeaExplorer {named[1].lower()}"} if named else {}
     whose["title"] = f"{whose.get('platform', 'SeaExplorer')} log"
     log = Log({channel.name: channel for channel in channels if len(channel)}, "measured", whose | NOTES)
     kept = sampled(time_ns[good], log.channels)
     if not kept.all():
         dropped["no usable value"] += int((~kept).sum())
-    damaged = "" if whole else "gzip data cut short or damaged: only what could be unpacked was read"
-    error = "; ".join(fault for fault in (damaged, foreign) if fault) or None
+    damaged = "" if whole else DAMAGED
+    cut = CUT if whole and ends_open(data) and _lacks_fields(lines[-1], names) else ""
+    error = "; ".join(fault for fault in (damaged, foreign, cut) if fault) or None
     report = FileReport(
         path, "seaexplorer", records, int(kept.sum()), tuple(sorted(dropped.items())), tuple(warnings), error
     )
@@ -126,6 +128,11 @@ def _rows(lines: list[str], names: list[str], dropped: Counter[str]) -> tuple[li
         else:
             rows.append(cells)
     return rows, ""
+
+
+def _lacks_fields(line: str, names: list[str]) -> bool:
+    """Whether a line that is not blank has fewer fields than the header."""
+    return bool(line.strip()) and line.count(";") < len(names) - 1
 
 
 def _partner(recording: re.Match[str] | None) -> str:

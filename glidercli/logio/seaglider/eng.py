@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
-from glidercli.gzipped import unpacked
+from glidercli.gzipped import DAMAGED, unpacked
 from glidercli.log import Log
+from glidercli.logio.cut_text import CUT
 from glidercli.logio.quantities import channel_of
 from glidercli.logio.reader import Part
 from glidercli.logio.seaglider.actuators import clear_of_motors
@@ -60,7 +61,8 @@ def read_eng(path: Path, data: bytes) -> Part:
     gathering.keep_rows("", time_ns, channels)
     if log and "phase" in log:
         gathering.channels.append(held(log["phase"], time_ns, log.end_ns))
-    return gathering.part(path, text.dive, ("eng",))
+    error = CUT if text.open and len(split[-1]) < len(names) else None
+    return gathering.part(path, text.dive, ("eng",), error=error)
 
 
 def _beside(path: Path, dive: Dive, gathering: Gathering) -> tuple[float | None, Log | None]:
@@ -73,15 +75,17 @@ def _beside(path: Path, dive: Dive, gathering: Gathering) -> tuple[float | None,
         )
         return None, None
     try:
-        data, _ = unpacked(beside, beside.read_bytes())
+        data, whole = unpacked(beside, beside.read_bytes())
         if not is_text(data):
             raise InputError(beside, "is no .log of a Seaglider")
         text = read_text(beside, data)
         if text.dive != dive:
             raise InputError(beside, f"is of {text.dive.name or 'an unknown dive'}, this is {dive.name or 'unknown'}")
-        log = read_log(beside, data).log
+        part = read_log(beside, data)
         gathering.beside.append(beside)
-        return declination_of(text.lines), log
+        if fault := part.report.error if whole else DAMAGED:
+            gathering.warnings.append(f"{beside.name} beside it: {fault}")
+        return declination_of(text.lines), part.log
     except (OSError, InputError) as error:
         gathering.warnings.append(f"{beside.name} beside it is not used: it {str(error).removeprefix(f'{beside}: ')}")
         return None, None

@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
+from glidercli.logio.cut_text import ends_open
 from glidercli.logio.records import NO_TIME
 from glidercli.logio.seaglider.gathering import Dive
 
 __all__ = ["TextFile", "is_text", "read_text", "since", "to_number", "utc_ns"]
 
 LONGEST = 64 * 2**20
-"""Bytes of a text that are read; those of a dive are some 10 kB."""
+"""Bytes that a text may have; those of a dive have some 10 kB."""
 FURTHEST = 1e8
 """s; three years."""
 
@@ -25,11 +26,13 @@ class TextFile(NamedTuple):
     """A text, taken apart.
 
     header : entries before "data:". lines : those after it, blank ones left out. start_ns : start of the dive, UTC ns.
+    open : whether the last line has no line end.
     """
 
     header: dict[str, str]
     lines: list[str]
     start_ns: int
+    open: bool
 
     @property
     def dive(self) -> Dive:
@@ -50,13 +53,16 @@ def is_text(data: bytes) -> bool:
 
 
 def read_text(path: Path, data: bytes) -> TextFile:
-    """Take a text apart. Raises InputError where no start of the dive is told."""
+    """Take a text apart. Raises InputError where no start of the dive is told, or it is too long."""
+    if len(data) > LONGEST:
+        raise InputError(path, f"has {len(data) / 1e6:.0f} MB of text; at most {LONGEST / 1e6:.0f} MB are allowed")
     header: dict[str, str] = {}
-    lines = [line.strip() for line in data[:LONGEST].decode("latin-1").replace("\r", "\n").split("\n")]
+    lines = [line.strip() for line in data.decode("latin-1").replace("\r", "\n").split("\n")]
     for number, line in enumerate(lines):
         key, _, value = line.lstrip("%").partition(":")
         if key.strip() == "data":
-            return TextFile(header, [text for text in lines[number + 1 :] if text], _start(path, header))
+            kept = [text for text in lines[number + 1 :] if text]
+            return TextFile(header, kept, _start(path, header), bool(kept) and bool(lines[-1]) and ends_open(data))
         header[key.strip()] = value.strip()
     raise InputError(path, 'is damaged: no line "data:" after its header')
 
