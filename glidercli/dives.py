@@ -99,13 +99,12 @@ def cuts(log: Log) -> Times:
     return gaps[(gaps[:, 1] - gaps[:, 0]) * 1e-9 * FASTEST > way]
 
 
-def mask(time_ns: NDArray[np.int64], intervals: tuple[Interval, ...], name: str) -> NDArray[np.bool_]:
-    """Which of the times, (n,) UTC ns, lie in an interval of this name; (n,)."""
-    inside = np.zeros(len(time_ns), dtype=bool)
-    for interval in intervals:
-        if interval.name == name:
-            inside |= (time_ns >= interval.start_ns) & (time_ns < interval.end_ns)
-    return inside
+def mask(time_ns: Times, intervals: tuple[Interval, ...], name: str) -> NDArray[np.bool_]:
+    """Which of the times, (n,) UTC ns, lie in an interval of this name, (n,); intervals ordered by begin."""
+    spans = np.array([(i.start_ns, i.end_ns) for i in intervals if i.name == name], np.int64).reshape(-1, 2)
+    begun = np.searchsorted(spans[:, 0], time_ns, side="right")
+    reach = np.concatenate([[np.iinfo(np.int64).min], np.maximum.accumulate(spans[:, 1])])
+    return np.asarray(time_ns < reach[begun])
 
 
 def turning_points(depth: NDArray[np.float64], prominence: float) -> list[int]:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from glidercli.log import Channel, Event, Log, Origin
 from glidercli.logio.alike import alike, with_note
+from glidercli.logio.cut_text import CUT
 from glidercli.logio.derived.closure import closures_in
 from glidercli.logio.derived.motion import with_phase
 from glidercli.logio.reader import Part
@@ -74,10 +75,19 @@ def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]
 
 
 def _fuller(part: Part, others: list[Part]) -> Part | None:
-    """The best of the files that hold all that this one does, if it is another: whole, full, long, first."""
+    """The best of the files that hold all that this one does, if it is another: whole, full, long, first.
+
+    A text that ends in the middle of a line is as good as a whole one as far as it goes.
+    """
     twins = [other for other in others if set(part.holds) <= set(other.holds)]
     best = max(
-        twins, key=lambda other: (other.report.error is None, other.fullness, len(other.holds), other.report.kept)
+        twins,
+        key=lambda other: (
+            other.report.error in (None, CUT),
+            other.fullness,
+            len(other.holds),
+            other.report.kept,
+        ),  # fmt: skip
     )
     return None if best is part else best
 
@@ -227,7 +237,8 @@ def _metadata(logs: list[Log]) -> dict[str, str]:
     told = {key: " | ".join(dict.fromkeys(values)) for key, values in entries.items() if key != "provenance"}
     if "closures" in entries:
         each = [closure for text in dict.fromkeys(entries["closures"]) for closure in closures_in(text)]
-        told["closures"] = json.dumps([closure for i, closure in enumerate(each) if closure not in each[:i]])
+        once = {json.dumps(closure, sort_keys=True): closure for closure in reversed(each)}
+        told["closures"] = json.dumps(list(reversed(once.values())))
     return one | told
 
 

@@ -157,12 +157,13 @@ def _dives(log: Log) -> tuple[Yo, ...]:
         if leg.name != "dive":
             continue
         near = after is not None and np.searchsorted(apart, leg.start_ns) == np.searchsorted(apart, after.start_ns)
-        last = after if near and after.name == "climb" else leg
-        depth = log["depth"].sliced(leg.start_ns, last.end_ns).values
+        end_ns = after.end_ns if near and after.name == "climb" else leg.end_ns
+        depth = log["depth"].sliced(leg.start_ns, end_ns).values
         if len(depth):
-            inside = np.diff(np.clip(gaps, leg.start_ns, last.end_ns)) * 1e-9
+            first, last = np.searchsorted(gaps[:, 1], [leg.start_ns, end_ns])
+            inside = np.diff(np.clip(gaps[first : last + 1], leg.start_ns, end_ns)) * 1e-9
             longest = float(inside.max(initial=0.0))
-            found.append(Yo(leg.start_ns, last.end_ns, float(depth.max()), longest if longest > LEAST_GAP else None))
+            found.append(Yo(leg.start_ns, end_ns, float(depth.max()), longest if longest > LEAST_GAP else None))
     return tuple(found)
 
 
@@ -192,12 +193,16 @@ def _first_of(names: tuple[str, ...]) -> str:
 
 def _silence(log: Log) -> tuple[int, int] | None:
     """The longest time of more than a day without a sample of any channel, UTC ns; None where there is none."""
-    times = np.unique(np.concatenate([channel.time_ns for channel in log.channels.values()]))
-    steps = np.diff(times)
-    if not len(steps) or steps.max() <= FAR:
-        return None
-    at = int(steps.argmax())
-    return int(times[at]), int(times[at + 1])
+    runs: list[tuple[int, int]] = []  # of each channel, those that lie more than a day apart
+    for time_ns in {id(channel.time_ns): channel.time_ns for channel in log.channels.values()}.values():
+        bounds = np.concatenate([[0], np.flatnonzero(np.diff(time_ns) > FAR) + 1, [len(time_ns)]])
+        runs += [(int(time_ns[i]), int(time_ns[j - 1])) for i, j in itertools.pairwise(bounds) if j > i]
+    silence, reached = (0, 0), None
+    for start, end in sorted(runs):
+        if reached is not None and start - reached > max(FAR, silence[1] - silence[0]):
+            silence = (reached, start)
+        reached = end if reached is None else max(reached, end)
+    return silence if silence[1] > silence[0] else None
 
 
 def _gaps(numbers: set[int]) -> str:

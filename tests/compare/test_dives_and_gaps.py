@@ -1,11 +1,13 @@
 """No dive goes on across a time in which the vehicle may have been at the surface; shorter gaps are told."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from analytic_flights import channel, log, ns, vee
 
 from glidercli.channels import PHASES
-from glidercli.dives import cuts, long_gaps, phases
+from glidercli.dives import Interval, cuts, long_gaps, mask, phases
 from glidercli.log import Log
 from glidercli.logio.derived.motion import with_motion
 from glidercli.logio.overview import overview
@@ -80,3 +82,14 @@ def test_sparse_samples_are_no_gaps() -> None:
     assert not len(cuts(made))
     assert len(dives_of(made)) == 1
     assert not len(long_gaps(np.array([], np.int64)))
+
+
+@pytest.mark.parametrize("name", ["dive", "climb"])
+def test_times_within_legs_are_those_that_a_look_at_each_leg_finds(name: str) -> None:
+    rng = np.random.default_rng(3)
+    ends = np.sort(rng.integers(0, 1000, 60))
+    legs = tuple(Interval(str(rng.choice(["dive", "climb"])), int(a), int(b)) for a, b in pairwise(ends))
+    times = np.sort(rng.integers(-5, 1005, 500))
+    wanted = [any(leg.name == name and leg.start_ns <= time < leg.end_ns for leg in legs) for time in times]
+    assert mask(times, legs, name).tolist() == wanted
+    assert not mask(times, (), name).any()

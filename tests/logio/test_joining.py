@@ -113,6 +113,10 @@ def test_a_cut_file_takes_no_whole_one_with_it(tmp_path: Path) -> None:
     assert (raw.kept, sub.kept) == (100, 404)
     assert sub.dropped == (("its recording is in sea035.12.gli.raw.37", 100),)
     assert len(reading.log["depth"]) == 504
+    (tmp_path / "sea035.12.gli.raw.37").write_bytes(b"".join(lines[:102])[:-20])
+    raw, sub = read([tmp_path]).files
+    assert raw.error is not None  # and yet what it holds is good
+    assert (raw.kept, sub.kept) == (100, 404)
     with_error = gzip.compress(b"".join(lines))[:-2000]
     (tmp_path / "sea035.12.gli.raw.37").write_bytes(with_error)
     raw, sub = read([tmp_path]).files

@@ -95,9 +95,9 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
 
 def _names(path: Path, header: str) -> list[str]:
     """The columns of a header; the last is "" where it ends in a semicolon."""
+    if (count := header.count(";") + 1) > MOST_COLUMNS:
+        raise InputError(path, f"line 1: names {count} columns; at most {MOST_COLUMNS} are allowed")
     names = [name.strip() for name in header.split(";")]
-    if len(names) > MOST_COLUMNS:
-        raise InputError(path, f"line 1: names {len(names)} columns; at most {MOST_COLUMNS} are allowed")
     twice = [name for name, count in Counter(names).items() if name and count > 1]
     if twice:
         raise InputError(path, f"line 1: column {twice[0]} stands there twice; each may once")
@@ -112,6 +112,9 @@ def _rows(lines: list[str], names: list[str], dropped: Counter[str]) -> tuple[li
     rows: list[list[str]] = []
     for number, line in enumerate(lines[1:], 2):
         if not line.strip():
+            continue
+        if line.count(";") > MOST_COLUMNS:  # no line of a million cells is taken apart
+            dropped["wrong number of fields"] += 1
             continue
         cells = [cell.strip() for cell in line.split(";")]
         if cells[0] in (NAVIGATION, PAYLOAD):
