@@ -80,15 +80,11 @@ def _fuller(part: Part, others: list[Part]) -> Part | None:
     A text that ends in the middle of a line is as good as a whole one as far as it goes.
     """
     twins = [other for other in others if set(part.holds) <= set(other.holds)]
-    best = max(
-        twins,
-        key=lambda other: (
-            other.report.error in (None, CUT),
-            other.fullness,
-            len(other.holds),
-            other.report.kept,
-        ),  # fmt: skip
-    )
+
+    def worth(other: Part) -> tuple[bool, int, int, int]:
+        return other.report.error in (None, CUT), other.fullness, len(other.holds), other.report.kept
+
+    best = max(twins, key=worth)
     return None if best is part else best
 
 
