@@ -239,4 +239,6 @@ def _metadata(logs: list[Log]) -> dict[str, str]:
 
 
 def _events(logs: list[Log]) -> tuple[Event, ...]:
-    return tuple(sorted((event for log in logs for event in log.events), key=lambda event: event.time_ns))
+    """The events of all, each once: two files of a dive may tell the same one."""
+    every = dict.fromkeys(event for log in logs for event in log.events)
+    return tuple(sorted(every, key=lambda event: event.time_ns))
