@@ -45,9 +45,12 @@ def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]
     for part in parts:
         for name in part.holds:
             holders.setdefault(name, []).append(part)
+    fullest: dict[tuple[str, ...], Part] = {}
     for number, part in enumerate(parts):
-        best = _fuller(part, holders[part.holds[0]]) if part.holds else None
-        if best is not None:
+        if part.holds and part.holds not in fullest:
+            fullest[part.holds] = _fullest(part.holds, holders[part.holds[0]])
+        best = fullest.get(part.holds, part)
+        if best is not part:
             part = _beyond(part, best)
             reports[part.report.path] = part.report
         if len(part.record_ns):
@@ -55,6 +58,7 @@ def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]
     paths = [part.report.path for part in parts]
     parts.clear()
     holders.clear()
+    fullest.clear()
     reached: dict[str, int] = {}
     kept: list[Log] = []
     apart = [group for dive in dives.values() for group in _apart(dive)]
@@ -74,18 +78,17 @@ def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]
     return _one(kept), [reports[path] for path in paths]
 
 
-def _fuller(part: Part, others: list[Part]) -> Part | None:
-    """The best of the files that hold all that this one does, if it is another: whole, full, long, first.
+def _fullest(holds: tuple[str, ...], others: list[Part]) -> Part:
+    """The best of the files that hold all of these recordings: whole, full, long, first.
 
     A text that ends in the middle of a line is as good as a whole one as far as it goes.
     """
-    twins = [other for other in others if set(part.holds) <= set(other.holds)]
+    twins = [other for other in others if set(holds) <= set(other.holds)]
 
     def worth(other: Part) -> tuple[bool, int, int, int]:
         return other.report.error in (None, CUT), other.fullness, len(other.holds), other.report.kept
 
-    best = max(twins, key=worth)
-    return None if best is part else best
+    return max(twins, key=worth)
 
 
 def _beyond(part: Part, best: Part) -> Part:
@@ -106,9 +109,11 @@ def _beyond(part: Part, best: Part) -> Part:
 def _apart(dive: list[Part]) -> list[list[Part]]:
     """The files of a dive in groups that share no time, earlier ones first; all but the first group say so."""
     groups: list[list[Part]] = []
+    end_ns = -FOREVER
     for part in sorted(dive, key=lambda part: part.log.start_ns):
         before = groups[-1] if groups else []
-        if before and part.log.start_ns <= max(other.log.end_ns for other in before):
+        apart, end_ns = part.log.start_ns > end_ns, max(end_ns, part.log.end_ns)
+        if not apart:
             before.append(part)
             continue
         if before:
@@ -141,8 +146,8 @@ def _long(time_ns: int) -> str:
 def _without_yielded(dive: list[Part]) -> list[Part]:
     """The files of a dive, without the channels that one gives up since another has them."""
     left = []
+    other = {name for file in dive for name in file.log.channels.keys() - file.yields}
     for part in dive:
-        other = {name for file in dive for name in file.log.channels.keys() - file.yields}
         given = sorted(part.yields & other & part.log.channels.keys())
         if given:
             channels = {name: c for name, c in part.log.channels.items() if name not in given}
