@@ -75,7 +75,7 @@ def _read(path: Path, format: str | None, aids: Aids) -> Part | FileReport:
         return FileReport(path, name, 0, 0, error=str(error).removeprefix(f"{path}: "))
     except OSError as error:
         return FileReport(path, name, 0, 0, error=f"cannot be read: {error.strerror or error}")
-    if part.log.channels:
+    if any(map(len, part.log.channels.values())):
         return part
     why = ", ".join(f"{count} {reason}" for reason, count in part.report.dropped)
     return dataclasses.replace(part.report, error=part.report.error or "no usable record" + (f": {why}" if why else ""))

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from conftest import ROOT, Run, one_line_error
 
+from glidercli.errors import InputError
 from glidercli.logio import read
 from glidercli.logio.report import FileReport
 
@@ -85,3 +86,32 @@ def test_strict_refuses_it(tmp_path: Path, glider: Run) -> None:
     (tmp_path / NAVIGATION.name).write_bytes(NAVIGATION.read_bytes()[:-40])
     assert glider("replay", str(tmp_path / NAVIGATION.name)).returncode == 0
     assert CUT in one_line_error(glider("replay", "--strict", str(tmp_path / NAVIGATION.name)))
+
+
+def test_a_eng_without_a_usable_row_beside_its_log_is_named(tmp_path: Path) -> None:
+    shutil.copy(LOG, tmp_path)
+    head, _, rows = ENG.read_text("latin-1").partition("%data:\n")
+    names = next(line for line in head.split("\n") if line.startswith("%columns:")).removeprefix("%columns:").split(",")
+    place = [name.strip() for name in names].index("elaps_t")
+    garbled = []
+    for row in rows.split("\n")[:-1]:
+        cells = row.split()
+        cells[place] = "x"
+        garbled.append(" ".join(cells))
+    (tmp_path / ENG.name).write_text(f"{head}%data:\n" + "\n".join(garbled) + "\n", "latin-1")
+    with pytest.raises(InputError, match=f"no usable record: {len(garbled)} time cannot be read"):
+        read([tmp_path / ENG.name])
+    bad, good = read([tmp_path]).files
+    assert (bad.kept, bad.records) == (0, len(garbled))
+    assert good.kept > 0
+
+
+@pytest.mark.parametrize("start", ["5 4 116 18 360 9", "5 4 116 0360 12 9", "5 4 116 18 12 9000", "2 30 116 0 0 0"])
+def test_a_start_that_is_no_time_is_said_once(start: str, tmp_path: Path, glider: Run) -> None:
+    """Also on stderr: a warning of the library that takes times apart stood before it."""
+    lines = ENG.read_text("latin-1").split("\n")
+    changed = [f"%start: {start}" if line.startswith("%start:") else line for line in lines]
+    (tmp_path / "a.eng").write_text("\n".join(changed), "latin-1")
+    done = glider("info", str(tmp_path / "a.eng"))
+    assert f'start "{start}" is no time' in one_line_error(done)
+    assert "UserWarning" not in done.stderr

@@ -59,8 +59,8 @@ def read_eng(path: Path, data: bytes) -> Part:
         )
     gathering.metadata["depth_note"] = "depth as the vehicle reckoned it, not corrected for latitude as that of a .nc"
     gathering.keep_rows("", time_ns, channels)
-    if log and "phase" in log:
-        gathering.channels.append(held(log["phase"], time_ns, log.end_ns))
+    if log and "phase" in log and len(phase := held(log["phase"], time_ns, log.end_ns)):
+        gathering.channels.append(phase)
     error = CUT if text.open and len(split[-1]) < len(names) else None
     return gathering.part(path, text.dive, ("eng",), error=error)
 

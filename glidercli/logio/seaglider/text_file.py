@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import NamedTuple
 
@@ -18,6 +19,7 @@ __all__ = ["TextFile", "is_text", "read_text", "since", "to_number", "utc_ns"]
 
 LONGEST = 64 * 2**20
 """Bytes that a text may have; those of a dive have some 10 kB."""
+EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 FURTHEST = 1e8
 """s; three years."""
 
@@ -82,11 +84,11 @@ def _start(path: Path, header: dict[str, str]) -> int:
 
 def utc_ns(year: int, month: int, day: int, hour: int, minute: int, second: int) -> int:
     """A time as UTC ns, or NO_TIME where there is no such."""
-    text = f"{year:04d}-{month:02d}-{day:02d}T{hour:02d}:{minute:02d}:{second:02d}"
     try:
-        return int(np.datetime64(text, "ns").astype(np.int64)) if 1970 <= year < 2200 else NO_TIME
-    except ValueError:
+        moment = datetime(year, month, day, hour, minute, second, tzinfo=UTC)
+    except (ValueError, OverflowError):
         return NO_TIME
+    return (moment - EPOCH) // timedelta(seconds=1) * 10**9 if 1970 <= year < 2200 else NO_TIME
 
 
 def since(start_ns: int, seconds: Sequence[float] | NDArray[np.float64]) -> NDArray[np.int64]:
