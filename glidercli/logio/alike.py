@@ -17,6 +17,7 @@ from glidercli.errors import InputError
 from glidercli.log import Log
 from glidercli.logio.reader import Part
 from glidercli.units import DBAR
+from glidercli.utc import to_second
 
 __all__ = ["alike", "vehicle_of", "with_note"]
 
@@ -102,12 +103,11 @@ def _check_depths(ordered: list[Part]) -> None:
     for number in np.flatnonzero(nameless & (wrong >= LEAST) & (wrong > 0.5 * compared)).tolist():
         at = int(pair[against & ((file[pair] == number) | (file[pair + 1] == number))][0])
         one, other = (at, at + 1) if file[at] == number else (at + 1, at)
-        when = f"{np.datetime64(int(time_ns[one]), 'ns').astype('datetime64[s]')}Z"
         beside = ordered[file[other]]
         raise InputError(
             ordered[number].report.path,
-            f"tells no vehicle, and at {when} it was at {depth[one]:.0f} m where {beside.report.path} was at "
-            f"{depth[other]:.0f} m: of two vehicles, or a clock is wrong; read them one by one",
+            f"tells no vehicle, and at {to_second(time_ns[one])} it was at {depth[one]:.0f} m where "
+            f"{beside.report.path} was at {depth[other]:.0f} m: of two vehicles, or a clock is wrong; read them one by one",
         )
 
 

@@ -22,6 +22,7 @@ from glidercli.logio.derived.closure import closures_in
 from glidercli.logio.derived.motion import with_phase
 from glidercli.logio.reader import Part
 from glidercli.logio.report import FileReport
+from glidercli.utc import to_second
 
 __all__ = ["joined"]
 
@@ -131,8 +132,7 @@ def _apart(dive: list[Part]) -> list[list[Part]]:
 def _span(parts: list[Part]) -> str:
     """From when to when files go."""
     ends = (min(part.log.start_ns for part in parts), max(part.log.end_ns for part in parts))
-    first, last = (f"{np.datetime64(time_ns, 'ns').astype('datetime64[s]')}Z" for time_ns in ends)
-    return f"{first} to {last}"
+    return " to ".join(map(to_second, ends))
 
 
 def _long(time_ns: int) -> str:

@@ -14,8 +14,8 @@ from glidercli.dives import LEAST_GAP, MANY, cuts, long_gaps, phases
 from glidercli.log import Channel, Log
 from glidercli.logio.derived.closure import closures_in
 from glidercli.logio.reading import Reading
-from glidercli.logio.replaying import iso
 from glidercli.logio.report import FileReport
+from glidercli.utc import iso
 
 __all__ = ["Overview", "Sampling", "Yo", "overview"]
 

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.logio.derived.motion import AFLOAT, LONGEST_GAP
+from glidercli.utc import iso, to_second
 
 __all__ = ["Closure", "Fixes", "close", "closures_in"]
 
@@ -81,8 +82,8 @@ class Closure(NamedTuple):
 
     def told(self) -> str:
         """In words."""
-        start = np.datetime64(self.start_ns, "ns").astype("datetime64[s]")
-        span = f"closure over {(self.end_ns - self.start_ns) * 1e-9:.0f} s from {start}Z: {self.error:.0f} m"
+        lasts = (self.end_ns - self.start_ns) * 1e-9
+        span = f"closure over {lasts:.0f} s from {to_second(self.start_ns)}: {self.error:.0f} m"
         if not self.tells_current:
             return f"{span}, and no current, since for {self.silent:.0f} s of it nothing was recorded"
         unknown = [name for name, drift in (("before", self.before), ("after", self.after)) if drift is None]
@@ -94,16 +95,13 @@ class Closure(NamedTuple):
 
     def document(self) -> dict[str, Any]:
         """As JSON."""
-        start, end = (
-            f"{np.datetime_as_string(np.datetime64(t, 'ns'), unit='ms')}Z" for t in (self.start_ns, self.end_ns)
-        )
         drifts = {
             f"drift_{name}_m_s": None if drift is None else {"north": drift.north, "east": drift.east}
             for name, drift in (("before", self.before), ("after", self.after))
         }
         return {
-            "start": start,
-            "end": end,
+            "start": iso(self.start_ns),
+            "end": iso(self.end_ns),
             "submerged_s": self.submerged,
             "way_m": self.way,
             "closure_error_m": self.error,

@@ -19,6 +19,7 @@ from glidercli.errors import InputError
 from glidercli.gzipped import DAMAGED, beginning, unpacked
 from glidercli.log import Log
 from glidercli.logio.cut_text import CUT, ends_open
+from glidercli.logio.number_cells import numbers
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import sampled, to_ns, usable
 from glidercli.logio.report import FileReport
@@ -26,7 +27,6 @@ from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, USED, channel
 
 __all__ = ["is_seaexplorer", "read_seaexplorer"]
 
-Array = NDArray[np.float64]
 Times = NDArray[np.int64]
 
 MOST_COLUMNS = 2000
@@ -60,7 +60,7 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
     rows, foreign = _rows(lines, names, dropped)
     records = len(rows) + dropped.total()
     time_ns = _times([row[0] for row in rows])
-    table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if i > 0 and name}
+    table = {name: numbers([row[i] for row in rows]) for i, name in enumerate(names) if i > 0 and name}
     known = {name: np.where(np.isin(values, SENTINELS), np.nan, values) for name, values in table.items()}
     good = usable(time_ns, known, dropped)
     unread = tuple(name for name, values in known.items() if name not in USED and not np.isnan(values[good]).all())
@@ -153,13 +153,3 @@ def _times(texts: list[str]) -> Times:
     parsed = pd.to_datetime(pd.Series(texts, dtype=object), format="%d/%m/%Y %H:%M:%S.%f", errors="coerce")
     whole = pd.to_datetime(pd.Series(texts, dtype=object), format="%d/%m/%Y %H:%M:%S", errors="coerce")
     return to_ns(parsed.fillna(whole))
-
-
-def _numbers(texts: list[str]) -> Array:
-    """Numbers; NaN where a cell is blank, infinite where it is no number."""
-    import pandas as pd
-
-    values = pd.to_numeric(pd.Series(texts, dtype=object), errors="coerce").to_numpy(dtype=float, copy=True)
-    told = np.array([text.lower() not in ("", "nan") for text in texts], dtype=bool)
-    values[told & np.isnan(values)] = np.inf
-    return values

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from glidercli.errors import InputError
 from glidercli.gzipped import DAMAGED, unpacked
 from glidercli.log import Log
 from glidercli.logio.cut_text import CUT
+from glidercli.logio.number_cells import numbers
 from glidercli.logio.quantities import channel_of
 from glidercli.logio.reader import Part
 from glidercli.logio.seaglider.actuators import clear_of_motors
@@ -40,7 +38,7 @@ def read_eng(path: Path, data: bytes) -> Part:
     gathering.records += len(split) - len(rows)
     gathering.drop("", "wrong number of fields", len(split) - len(rows))
     used = (TIME, *COLUMNS)
-    table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if name in used}
+    table = {name: numbers([row[i] for row in rows]) for i, name in enumerate(names) if name in used}
     gathering.unread += [
         name for i, name in enumerate(names) if name not in used and any(row[i].lower() != "nan" for row in rows)
     ]
@@ -89,13 +87,3 @@ def _beside(path: Path, dive: Dive, gathering: Gathering) -> tuple[float | None,
     except (OSError, InputError) as error:
         gathering.warnings.append(f"{beside.name} beside it is not used: it {str(error).removeprefix(f'{beside}: ')}")
         return None, None
-
-
-def _numbers(texts: list[str]) -> NDArray[np.float64]:
-    """Numbers; NaN where a cell says nan, infinite where it is no number."""
-    import pandas as pd
-
-    values = pd.to_numeric(pd.Series(texts, dtype=object), errors="coerce").to_numpy(dtype=float, copy=True)
-    told = np.array([text.lower() != "nan" for text in texts], dtype=bool)
-    values[told & np.isnan(values)] = np.inf
-    return values
