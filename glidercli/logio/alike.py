@@ -107,7 +107,8 @@ def _check_depths(ordered: list[Part]) -> None:
         raise InputError(
             ordered[number].report.path,
             f"tells no vehicle, and at {to_second(time_ns[one])} it was at {depth[one]:.0f} m where "
-            f"{beside.report.path} was at {depth[other]:.0f} m: of two vehicles, or a clock is wrong; read them one by one",
+            f"{beside.report.path} was at {depth[other]:.0f} m: of two vehicles, "
+            "or a clock is wrong; read them one by one",
         )
 
 
