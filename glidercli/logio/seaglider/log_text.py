@@ -36,6 +36,8 @@ OLD_HEAD = (
     "pitch_ad,roll_ad,vbd_ad"
 )
 SETTINGS = ("C_PITCH", "PITCH_CNV", "C_ROLL_DIVE", "C_ROLL_CLIMB", "ROLL_CNV", "C_VBD", "VBD_CNV", "VBD_LP_IGNORE")
+LARGEST_SETTING = 1e6
+"""Centres are up to 4095 counts, conversions a fraction of a cm, deg or cm3 for each."""
 PADDING = [""] * 6
 """Fields that a fix which was cut short may lack."""
 
@@ -49,6 +51,7 @@ def read_log(path: Path, data: bytes) -> Part:
     if cut:
         lines.pop()
     settings = {key[1:]: to_number(fields[0]) for key, fields in lines if key[1:] in SETTINGS}
+    settings = {name: value for name, value in settings.items() if abs(value) < LARGEST_SETTING}
     sampled = (*FIXES, "$GC", "$STATE", "$SM_CCo")
     gathering.records = sum(key not in sampled for key, _ in lines)
     gathering.records += cut

@@ -20,6 +20,8 @@ __all__ = ["TextFile", "is_text", "read_text", "since", "to_number", "utc_ns"]
 LONGEST = 64 * 2**20
 """Bytes that a text may have; those of a dive have some 10 kB."""
 EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
+ENORMOUS = 1e301
+"""A larger number is none: its product with a setting may be too large for one."""
 FURTHEST = 1e8
 """s; three years."""
 
@@ -104,9 +106,9 @@ def _integer(text: str) -> int | None:
 
 
 def to_number(text: str) -> float:
-    """A number, or NaN where a text is none or not finite."""
+    """A number, or NaN where a text is none, or one that no .log holds."""
     try:
         value = float(text)
     except ValueError:
         return float("nan")
-    return value if np.isfinite(value) else float("nan")
+    return value if abs(value) < ENORMOUS else float("nan")
