@@ -284,3 +284,10 @@ def test_a_line_of_millions_of_cells_costs_no_memory(tmp_path: Path) -> None:
     tracemalloc.stop()
     assert report.dropped == (("wrong number of fields", 1),)
     assert most < 200e6  # the text as bytes, as a text and as lines
+
+
+def test_capitals_make_no_other_vehicle(tmp_path: Path) -> None:
+    for name in ("sea035.12.gli.sub.36", "sea035.12.gli.sub.37"):
+        source = ROOT / "logs/seaexplorer-sea035" / name
+        (tmp_path / (name.upper() if name.endswith("37") else name)).write_bytes(source.read_bytes())
+    assert read([tmp_path]).log.metadata["platform"] == "SeaExplorer sea035"
