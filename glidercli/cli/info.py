@@ -134,7 +134,7 @@ def _span(seconds: float | None) -> str:
     """A time in the unit that suits it."""
     if seconds is None:
         return "-"
-    for unit, size in (("years", 365.25 * 86400.0), ("d", 86400.0), ("h", 3600.0), ("min", 60.0)):
+    for unit, size in (("yr", 365.25 * 86400.0), ("d", 86400.0), ("h", 3600.0), ("min", 60.0)):
         if seconds >= 2.0 * size:
             return f"{seconds / size:.1f} {unit}"
     return f"{seconds:.3g} s"
