@@ -7,12 +7,14 @@ from pathlib import Path
 
 from glidercli.errors import InputError
 
-__all__ = ["beginning", "is_gzip", "unpacked"]
+__all__ = ["DAMAGED", "beginning", "is_gzip", "unpacked"]
 
 PIECE = 4096
 """Bytes unpacked at a time, so that what stands before a damage is not lost."""
 LEAST, RATIO = 64_000_000, 100
 """Data may unpack to so many bytes, or so many times their own; tables of numbers pack to a tenth, not a hundredth."""
+DAMAGED = "gzip data cut short or damaged: only what could be unpacked was read"
+"""The error of a file whose gzip data are not whole."""
 _GZIP = b"\x1f\x8b"
 _WINDOW = 31  # zlib's way to say gzip
 
@@ -46,9 +48,9 @@ def unpacked(path: Path, data: bytes) -> tuple[bytes, bool]:
     if not is_gzip(data):
         return data, True
     most = max(LEAST, RATIO * len(data))
-    pieces, size = [], 0
-    while is_gzip(data):  # members of a gzip file follow one another
-        member, at = zlib.decompressobj(wbits=_WINDOW), 0
+    pieces, size, at = [], 0, 0
+    while is_gzip(data[at : at + 2]):  # members of a gzip file follow one another
+        member = zlib.decompressobj(wbits=_WINDOW)
         try:
             while at < len(data) and not member.eof:
                 piece = member.decompress(data[at : at + PIECE])
@@ -56,10 +58,9 @@ def unpacked(path: Path, data: bytes) -> tuple[bytes, bool]:
                 if size > most:
                     raise InputError(path, f"is gzip data that unpack to more than {most / 1e6:.0f} MB; no log does")
                 pieces.append(piece)
-                at += PIECE
+                at = min(at + PIECE, len(data)) - len(member.unused_data)
         except zlib.error:
             return b"".join(pieces), False
         if not member.eof:
             return b"".join(pieces), False
-        data = member.unused_data + data[at:]
-    return b"".join(pieces), not data.strip(b"\0")
+    return b"".join(pieces), not data[at:].strip(b"\0")

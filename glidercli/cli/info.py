@@ -48,6 +48,8 @@ def _text(d: dict[str, Any]) -> list[str]:
         f"{_moment(d['start'])} to {_moment(d['end'])} UTC, {_span(d['duration_s'])}",
         f"{_count(len(d['files']), 'file')}, {_count(records, 'record')}: {kept:,} kept, {records - kept:,} dropped",
     ]
+    if d["silence"]:
+        lines.append(f"nothing recorded from {_moment(d['silence']['start'])} to {_moment(d['silence']['end'])}")
     if d["dives"]:
         deepest = max(dive["deepest_m"] for dive in d["dives"])
         lines.append(f"{_count(len(d['dives']), 'dive')} to {deepest:.1f} m at most")
@@ -64,6 +66,7 @@ def _text(d: dict[str, Any]) -> list[str]:
         lines += ["", f"{'dive':>4}  {'start, UTC':<19}  {'lasts':>8}  {'deepest':>9}"]
         rows = [
             f"{i:>4}  {_moment(dive['start'])}  {_span(dive['duration_s']):>8}  {dive['deepest_m']:>7.1f} m"
+            + ("" if dive["gap_s"] is None else f"  with a gap of {_span(dive['gap_s'])}")
             for i, dive in enumerate(d["dives"], 1)
         ]
         lines += _shortened(rows, "dives")
@@ -131,7 +134,7 @@ def _span(seconds: float | None) -> str:
     """A time in the unit that suits it."""
     if seconds is None:
         return "-"
-    for unit, size in (("d", 86400.0), ("h", 3600.0), ("min", 60.0)):
+    for unit, size in (("yr", 365.25 * 86400.0), ("d", 86400.0), ("h", 3600.0), ("min", 60.0)):
         if seconds >= 2.0 * size:
             return f"{seconds / size:.1f} {unit}"
     return f"{seconds:.3g} s"

@@ -15,19 +15,20 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.errors import InputError
 from glidercli.log import Channel, Event, Log, Origin
+from glidercli.logio.alike import alike, with_note
+from glidercli.logio.cut_text import CUT
 from glidercli.logio.derived.closure import closures_in
 from glidercli.logio.derived.motion import with_phase
 from glidercli.logio.reader import Part
 from glidercli.logio.report import FileReport
+from glidercli.utc import to_second
 
 __all__ = ["joined"]
 
 FOREVER = np.iinfo(np.int64).max
 FAR = 86400 * 10**9
 """Files further apart in time than this are joined, and it is said, ns."""
-PLACE = ("origin_latitude_deg", "origin_longitude_deg")
 
 
 def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]:
@@ -36,18 +37,21 @@ def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]
     ``parts`` is emptied, so that what has been joined need not be in memory twice. A dive without a recorded phase has
     it from depth beside dives that have one; not where all files are this program's ``own``.
 
-    Raises InputError where origins, vehicles or the places of tracks differ.
+    Raises InputError where the files cannot be of one flight (alike.py).
     """
-    _check_alike(parts)
+    parts[:] = alike(parts)
     reports = {part.report.path: part.report for part in parts}
     dives: dict[str, list[Part]] = {}
     holders: dict[str, list[Part]] = {}
     for part in parts:
         for name in part.holds:
             holders.setdefault(name, []).append(part)
+    fullest: dict[tuple[str, ...], Part] = {}
     for number, part in enumerate(parts):
-        best = _fuller(part, holders[part.holds[0]]) if part.holds else None
-        if best is not None:
+        if part.holds and part.holds not in fullest:
+            fullest[part.holds] = _fullest(part.holds, holders[part.holds[0]])
+        best = fullest.get(part.holds, part)
+        if best is not part:
             part = _beyond(part, best)
             reports[part.report.path] = part.report
         if len(part.record_ns):
@@ -55,6 +59,7 @@ def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]
     paths = [part.report.path for part in parts]
     parts.clear()
     holders.clear()
+    fullest.clear()
     reached: dict[str, int] = {}
     kept: list[Log] = []
     apart = [group for dive in dives.values() for group in _apart(dive)]
@@ -74,35 +79,17 @@ def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]
     return _one(kept), [reports[path] for path in paths]
 
 
-def _check_alike(parts: list[Part]) -> None:
-    """Refuse what cannot be one flight: each is set against the earliest."""
-    ordered = sorted(parts, key=lambda part: part.log.start_ns)
-    first = ordered[0]
-    place: Part | None = None
-    for part in ordered:
-        path, beside = part.report.path, first.report.path
-        if part.log.origin != first.log.origin:
-            raise InputError(path, f"is {part.log.origin}, {beside} is {first.log.origin}; read them one by one")
-        platforms = [item.log.metadata.get("platform", "") for item in (first, part)]
-        if all(platforms) and platforms[0] != platforms[1]:
-            raise InputError(path, f"is of {platforms[1]}, {beside} of {platforms[0]}; read them one by one")
-        if "north" in part.log:
-            if place is not None and _place(place.log) != _place(part.log):
-                raise InputError(path, "has a track about another origin than the files before; read it by itself")
-            place = place or part
+def _fullest(holds: tuple[str, ...], others: list[Part]) -> Part:
+    """The best of the files that hold all of these recordings: whole, full, long, first.
 
+    A text that ends in the middle of a line is as good as a whole one as far as it goes.
+    """
+    twins = [other for other in others if set(holds) <= set(other.holds)]
 
-def _place(log: Log) -> list[str | None]:
-    return [log.metadata.get(key) for key in PLACE]
+    def worth(other: Part) -> tuple[bool, int, int, int]:
+        return other.report.error in (None, CUT), other.fullness, len(other.holds), other.report.kept
 
-
-def _fuller(part: Part, others: list[Part]) -> Part | None:
-    """The best of the files that hold all that this one does, if it is another: whole, full, long, first."""
-    twins = [other for other in others if set(part.holds) <= set(other.holds)]
-    best = max(
-        twins, key=lambda other: (other.report.error is None, other.fullness, len(other.holds), other.report.kept)
-    )
-    return None if best is part else best
+    return max(twins, key=worth)
 
 
 def _beyond(part: Part, best: Part) -> Part:
@@ -123,9 +110,11 @@ def _beyond(part: Part, best: Part) -> Part:
 def _apart(dive: list[Part]) -> list[list[Part]]:
     """The files of a dive in groups that share no time, earlier ones first; all but the first group say so."""
     groups: list[list[Part]] = []
+    end_ns = -FOREVER
     for part in sorted(dive, key=lambda part: part.log.start_ns):
         before = groups[-1] if groups else []
-        if before and part.log.start_ns <= max(other.log.end_ns for other in before):
+        apart, end_ns = part.log.start_ns > end_ns, max(end_ns, part.log.end_ns)
+        if not apart:
             before.append(part)
             continue
         if before:
@@ -133,7 +122,7 @@ def _apart(dive: list[Part]) -> list[list[Part]]:
                 f"{_span([part])}: shares no time with {before[0].report.path.name} of the same dive, {_span(before)}; "
                 "both are kept, is a clock wrong?"
             )
-            part = _with_note(part, note)
+            part = with_note(part, note)
         groups.append([part])
     if len(groups) == 1:
         return [dive]  # in the given order: of two samples at one time the first file's is kept
@@ -143,27 +132,29 @@ def _apart(dive: list[Part]) -> list[list[Part]]:
 def _span(parts: list[Part]) -> str:
     """From when to when files go."""
     ends = (min(part.log.start_ns for part in parts), max(part.log.end_ns for part in parts))
-    first, last = (f"{np.datetime64(time_ns, 'ns').astype('datetime64[s]')}Z" for time_ns in ends)
-    return f"{first} to {last}"
+    return " to ".join(map(to_second, ends))
 
 
-def _with_note(part: Part, note: str) -> Part:
-    report = dataclasses.replace(part.report, warnings=(*part.report.warnings, note))
-    return dataclasses.replace(part, report=report)
+def _long(time_ns: int) -> str:
+    """A time of more than a day, ns, in words: 36 days; 2 years and 34 days."""
+    days = round(time_ns / FAR)
+    years, rest = divmod(days, 365)
+    told = [f"{count} {word}{'' if count == 1 else 's'}" for count, word in ((years, "year"), (rest, "day")) if count]
+    return " and ".join(told)
 
 
 def _without_yielded(dive: list[Part]) -> list[Part]:
     """The files of a dive, without the channels that one gives up since another has them."""
     left = []
+    other = {name for file in dive for name in file.log.channels.keys() - file.yields}
     for part in dive:
-        other = {name for file in dive for name in file.log.channels.keys() - file.yields}
         given = sorted(part.yields & other & part.log.channels.keys())
         if given:
             channels = {name: c for name, c in part.log.channels.items() if name not in given}
             count = sum(len(part.log[name]) for name in given)
             note = f"{', '.join(given)}: {count} values left out, another file of the dive gives them"
             times = np.unique(np.concatenate([c.time_ns for c in channels.values()] or [part.record_ns[:0]]))
-            part = _with_note(dataclasses.replace(part, log=dataclasses.replace(part.log, channels=channels)), note)
+            part = with_note(dataclasses.replace(part, log=dataclasses.replace(part.log, channels=channels)), note)
             part = _keeping(part, np.isin(part.record_ns, times), "no other value than those left out")
         left.append(part)
     return left
@@ -186,8 +177,8 @@ def _after(part: Part, reached: dict[str, int]) -> Part:
     if end is None:
         return part
     if part.log.start_ns - end > FAR:
-        days = (part.log.start_ns - end) / FAR
-        part = _with_note(part, f"starts {days:.1f} days after the file before it; joined all the same")
+        note = f"starts {_long(part.log.start_ns - end)} after the end of the files before it; joined all the same"
+        part = with_note(part, note)
     if part.log.start_ns > end:
         return part
     part = _keeping(part, part.record_ns > end, "time not after the file before it")
@@ -247,9 +238,12 @@ def _metadata(logs: list[Log]) -> dict[str, str]:
     told = {key: " | ".join(dict.fromkeys(values)) for key, values in entries.items() if key != "provenance"}
     if "closures" in entries:
         each = [closure for text in dict.fromkeys(entries["closures"]) for closure in closures_in(text)]
-        told["closures"] = json.dumps([closure for i, closure in enumerate(each) if closure not in each[:i]])
+        once = {json.dumps(closure, sort_keys=True): closure for closure in reversed(each)}
+        told["closures"] = json.dumps(list(reversed(once.values())))
     return one | told
 
 
 def _events(logs: list[Log]) -> tuple[Event, ...]:
-    return tuple(sorted((event for log in logs for event in log.events), key=lambda event: event.time_ns))
+    """The events of all, each once: two files of a dive may tell the same one."""
+    every = dict.fromkeys(event for log in logs for event in log.events)
+    return tuple(sorted(every, key=lambda event: event.time_ns))

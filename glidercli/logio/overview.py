@@ -10,18 +10,21 @@ from typing import Any
 import numpy as np
 
 from glidercli.channels import CHANNELS
-from glidercli.dives import phases
+from glidercli.dives import LEAST_GAP, MANY, cuts, long_gaps, phases
 from glidercli.log import Channel, Log
 from glidercli.logio.derived.closure import closures_in
 from glidercli.logio.reading import Reading
-from glidercli.logio.replaying import iso
 from glidercli.logio.report import FileReport
+from glidercli.utc import iso
 
 __all__ = ["Overview", "Sampling", "Yo", "overview"]
 
-MANY = 5.0
-"""Intervals between samples of so many times the usual one, and of more than a minute, are gaps."""
-LEAST_GAP = 60.0  # s
+MINUTE = 60.0
+"""s; intervals between samples of more, and of more than MANY times the usual one, are gaps of a channel."""
+FAR = 86400 * 10**9
+"""ns; files further apart than this may not belong together."""
+FEW = 5
+"""Names that a line tells."""
 USUAL = (
     "depth", "pitch", "roll", "heading", "latitude", "temperature", "salinity", "mass_position", "ballast_volume",
 )  # fmt: skip
@@ -33,7 +36,7 @@ INSTEAD = {"ballast_volume": ("net_buoyancy",), "salinity": ("conductivity", "ab
 class Sampling:
     """How a channel is sampled.
 
-    interval : usual time between samples, s (median), None of a single one. gaps : longer ones, see MANY.
+    interval : usual time between samples, s (median), None of a single one. gaps : longer ones, see MINUTE.
     longest : the longest time between samples, s, and after_ns : the sample before it.
     """
 
@@ -65,11 +68,15 @@ class Sampling:
 
 @dataclasses.dataclass(frozen=True)
 class Yo:
-    """A dive and the climb after it; times UTC ns, depth m."""
+    """A dive and the climb after it; times UTC ns, depth m.
+
+    gap : the longest time within it without a sample of depth, s, where that is a long gap; else None.
+    """
 
     start_ns: int
     end_ns: int
     deepest: float
+    gap: float | None
 
     def document(self) -> dict[str, Any]:
         """As JSON."""
@@ -78,6 +85,7 @@ class Yo:
             "end": iso(self.end_ns),
             "duration_s": (self.end_ns - self.start_ns) * 1e-9,
             "deepest_m": self.deepest,
+            "gap_s": self.gap,
         }
 
 
@@ -86,6 +94,7 @@ class Overview:
     """What a recording holds.
 
     missing : what one would look for and not find, a line each. unread : columns with data that are not read.
+    silence : begin and end of the longest time without a sample of any channel, UTC ns, if it is more than a day.
     """
 
     log: Log
@@ -94,6 +103,7 @@ class Overview:
     dives: tuple[Yo, ...]
     missing: tuple[str, ...]
     unread: tuple[str, ...]
+    silence: tuple[int, int] | None
 
     def document(self) -> dict[str, Any]:
         """As JSON."""
@@ -104,6 +114,9 @@ class Overview:
             "start": iso(self.log.start_ns),
             "end": iso(self.log.end_ns),
             "duration_s": (self.log.end_ns - self.log.start_ns) * 1e-9,
+            "silence": None
+            if self.silence is None
+            else dict(zip(("start", "end"), map(iso, self.silence), strict=True)),
             "files": [report.document() for report in self.files],
             "channels": [channel.document() for channel in self.channels],
             "dives": [dive.document() for dive in self.dives],
@@ -119,7 +132,7 @@ def overview(reading: Reading) -> Overview:
     """What a reading holds."""
     log = reading.log
     channels = tuple(_sampling(channel) for channel in log.channels.values() if len(channel))
-    return Overview(log, reading.files, channels, _dives(log), tuple(_missing(reading)), reading.unread)
+    return Overview(log, reading.files, channels, _dives(log), tuple(_missing(reading)), reading.unread, _silence(log))
 
 
 def _sampling(channel: Channel) -> Sampling:
@@ -128,29 +141,37 @@ def _sampling(channel: Channel) -> Sampling:
         return Sampling(channel, None, 0, None, None)
     usual = float(np.median(steps))
     widest = int(steps.argmax())
-    gaps = int((steps > max(MANY * usual, LEAST_GAP)).sum())
+    gaps = int((steps > max(MANY * usual, MINUTE)).sum())
     return Sampling(channel, usual, gaps, float(steps[widest]), int(channel.time_ns[widest]))
 
 
 def _dives(log: Log) -> tuple[Yo, ...]:
-    """Each descent with the ascent that follows it, or without one."""
+    """Each descent with the ascent that follows it, or without one where none does before the next cut."""
     if "depth" not in log:
         return ()
     found: list[Yo] = []
     legs = phases(log)
-    for i, leg in enumerate(legs):
+    apart = cuts(log)[:, 0]
+    gaps = long_gaps(log["depth"].time_ns)
+    for leg, after in itertools.zip_longest(legs, legs[1:]):
         if leg.name != "dive":
             continue
-        climb = legs[i + 1] if i + 1 < len(legs) and legs[i + 1].name == "climb" else leg
-        depth = log["depth"].sliced(leg.start_ns, climb.end_ns).values
+        near = after is not None and np.searchsorted(apart, leg.start_ns) == np.searchsorted(apart, after.start_ns)
+        end_ns = after.end_ns if near and after.name == "climb" else leg.end_ns
+        depth = log["depth"].sliced(leg.start_ns, end_ns).values
         if len(depth):
-            found.append(Yo(leg.start_ns, climb.end_ns, float(depth.max())))
+            first, last = np.searchsorted(gaps[:, 1], [leg.start_ns, end_ns])
+            inside = np.diff(np.clip(gaps[first : last + 1], leg.start_ns, end_ns)) * 1e-9
+            longest = float(inside.max(initial=0.0))
+            found.append(Yo(leg.start_ns, end_ns, float(depth.max()), longest if longest > LEAST_GAP else None))
     return tuple(found)
 
 
 def _missing(reading: Reading) -> list[str]:
     """Files that belong to what was read and are not there; usual channels without a sample."""
     lines = [f"{report.path.name}: {report.error}" for report in reading.files if report.error]
+    if reading.nameless:
+        lines.append(f"the vehicle of {_first_of(reading.nameless)}, joined with {reading.log.metadata['platform']}")
     lines += [f"{name}, which goes with {beside}, is not among the files" for name, beside in reading.partners]
     numbers: dict[str, set[int]] = {}
     for dive in reading.dives:
@@ -163,6 +184,25 @@ def _missing(reading: Reading) -> list[str]:
         if not any(len(reading.log.channels.get(other, ())) for other in (name, *INSTEAD.get(name, ()))):
             lines.append(f"no {name.replace('_', ' ')}")
     return lines
+
+
+def _first_of(names: tuple[str, ...]) -> str:
+    """Names, or the first of many."""
+    return ", ".join(names) if len(names) <= FEW else f"{names[0]} and {len(names) - 1} more files"
+
+
+def _silence(log: Log) -> tuple[int, int] | None:
+    """The longest time of more than a day without a sample of any channel, UTC ns; None where there is none."""
+    runs: list[tuple[int, int]] = []  # of each channel, those that lie more than a day apart
+    for time_ns in {id(channel.time_ns): channel.time_ns for channel in log.channels.values()}.values():
+        bounds = np.concatenate([[0], np.flatnonzero(np.diff(time_ns) > FAR) + 1, [len(time_ns)]])
+        runs += [(int(time_ns[i]), int(time_ns[j - 1])) for i, j in itertools.pairwise(bounds) if j > i]
+    silence, reached = (0, 0), None
+    for start, end in sorted(runs):
+        if reached is not None and start - reached > max(FAR, silence[1] - silence[0]):
+            silence = (reached, start)
+        reached = end if reached is None else max(reached, end)
+    return silence if silence[1] > silence[0] else None
 
 
 def _gaps(numbers: set[int]) -> str:

@@ -12,6 +12,7 @@ from pathlib import Path
 from glidercli.errors import InputError
 from glidercli.files import readable_file
 from glidercli.log import Log
+from glidercli.logio.alike import vehicle_of
 from glidercli.logio.companions import is_companion
 from glidercli.logio.derived import with_derived
 from glidercli.logio.formats import FORMATS, check_format
@@ -30,6 +31,7 @@ class Reading:
 
     dives : names of the dives that the files tell. partners : recordings that usually stand beside one that was read
     and are missing, each with that one. unread : names of columns with data that no channel is taken from.
+    nameless : names of files that tell no vehicle, where others tell one.
     """
 
     log: Log
@@ -37,6 +39,7 @@ class Reading:
     dives: tuple[str, ...] = ()
     partners: tuple[tuple[str, str], ...] = ()
     unread: tuple[str, ...] = ()
+    nameless: tuple[str, ...] = ()
 
     @property
     def inputs(self) -> list[Path]:
@@ -89,16 +92,21 @@ def read(
     parts = _without_outputs(parts, files, reports)
     if not parts:
         raise _nothing(paths, list(reports.values()))
+    # the log is the same in whatever order the files come; of two that tell the same the one of a known vehicle counts
+    parts.sort(key=lambda part: (not vehicle_of(part), _natural(part.report.path)))
     dives = tuple(dict.fromkeys(part.dive for part in parts if part.dive))
     held = {"", *(name for part in parts for name in part.holds)}
     partners = tuple((part.partner, part.report.path.name) for part in parts if part.partner not in held)
     own = all(FORMATS[part.report.format].own for part in parts if part.report.format)
+    nameless = tuple(part.report.path.name for part in parts if not vehicle_of(part))
     near = joined_whereabouts([part.near for part in parts])
     log, whole = joined(parts, own)
     reports |= {report.path: report for report in whole}
     if not own:
         log = with_derived(log, near)
-    return Reading(log, tuple(reports.values()), dives, partners, tuple(unread))
+    if "platform" not in log.metadata:
+        nameless = ()
+    return Reading(log, tuple(reports.values()), dives, partners, tuple(unread), nameless)
 
 
 def _without_outputs(parts: list[Part], files: dict[Path, bool], reports: dict[Path, FileReport]) -> list[Part]:

@@ -7,8 +7,6 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from glidercli.channels import CHANNELS
 from glidercli.errors import InputError, UsageError
 from glidercli.files import check_not_inputs, check_outputs
@@ -18,6 +16,7 @@ from glidercli.logio.records import NO_TIME, to_ns
 from glidercli.logio.report import FileReport
 from glidercli.logio.writing import SUFFIXES, write
 from glidercli.provenance import provenance_json
+from glidercli.utc import iso
 
 __all__ = ["Replay", "replay"]
 
@@ -42,11 +41,6 @@ class Replay:
             "channels": [_channel(channel) for channel in self.log.channels.values() if len(channel)],
             "outputs": [str(path) for path in self.outputs],
         }
-
-
-def iso(time_ns: int) -> str:
-    """A time as ISO 8601 UTC to the millisecond."""
-    return f"{np.datetime_as_string(np.datetime64(int(time_ns), 'ns'), unit='ms')}Z"
 
 
 def _channel(channel: Channel) -> dict[str, Any]:

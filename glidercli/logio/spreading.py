@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from glidercli.errors import GliderError
+from glidercli.errors import GliderError, InputError
 from glidercli.files import readable_file
 from glidercli.logio.consistent import consistent
 from glidercli.logio.formats import FORMATS, recognised
@@ -41,6 +41,7 @@ def read_all(
             tell(done, len(files))
         return
     from concurrent.futures import ProcessPoolExecutor
+    from concurrent.futures.process import BrokenProcessPool
     from multiprocessing import get_context
 
     # spawn, not fork: the thread of the progress bar may hold a lock at the moment of a fork
@@ -48,7 +49,13 @@ def read_all(
     try:
         futures = deque(pool.submit(_read, path, format, aids) for path in files)
         while futures:
-            yield futures.popleft().result()  # not kept here: the caller may let go of it
+            try:
+                found = futures.popleft().result()
+            except BrokenProcessPool:
+                at = files[len(files) - len(futures) - 1]
+                raise InputError(at, "a process that read it or a file after it was killed: is memory short?") from None
+            yield found
+            del found  # the caller may let go of it
             tell(len(files) - len(futures), len(files))
     finally:
         pool.shutdown(cancel_futures=True)
@@ -67,7 +74,9 @@ def _read(path: Path, format: str | None, aids: Aids) -> Part | FileReport:
         part = FORMATS[name].read(readable_file(path), aids)
     except GliderError as error:
         return FileReport(path, name, 0, 0, error=str(error).removeprefix(f"{path}: "))
-    if part.log.channels:
+    except OSError as error:
+        return FileReport(path, name, 0, 0, error=f"cannot be read: {error.strerror or error}")
+    if any(map(len, part.log.channels.values())):
         return part if FORMATS[name].own else consistent(part)
     why = ", ".join(f"{count} {reason}" for reason, count in part.report.dropped)
     return dataclasses.replace(part.report, error=part.report.error or "no usable record" + (f": {why}" if why else ""))

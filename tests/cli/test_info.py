@@ -82,3 +82,21 @@ def test_own_files_in_gzip_say_what_to_do(glider: Run, tmp_path: Path) -> None:
                        ("a.parquet.gz", b"PAR1"), ("a.nc.gz", b"CDF\x01")):  # fmt: skip
         (tmp_path / name).write_bytes(gzip.compress(data))
         one_line_error(glider("info", name), name, "in gzip", "gunzip it first")
+
+
+def test_files_of_years_apart_are_told_as_such(glider: Run, glider_json: Callable[..., Any], tmp_path: Path) -> None:
+    for number, year in ((37, "2019"), (38, "2021")):
+        name = f"sea035.12.gli.sub.{number}"
+        text = (ROOT / "logs/seaexplorer-sea035" / name).read_bytes()
+        (tmp_path / name).write_bytes(text.replace(b"/2019 ", f"/{year} ".encode()))
+    shown = glider("info", str(tmp_path)).stdout
+    assert "2019-07-21 23:37:42 to 2021-07-22 05:23:54 UTC, 2.0 yr" in shown
+    assert "nothing recorded from 2019-07-22 02:28:55 to 2021-07-22 02:29:15" in shown
+    document = glider_json("info", str(tmp_path))
+    assert document["silence"] == {"start": "2019-07-22T02:28:55.000Z", "end": "2021-07-22T02:29:15.000Z"}
+    # each file lasts 171 and 175 min, with some time at the surface
+    assert all(150.0 < dive["duration_s"] / 60.0 < 171.0 for dive in document["dives"])
+    assert len(document["dives"]) == 2
+    warnings = [warning for report in document["files"] for warning in report["warnings"]]
+    assert "starts 2 years and 1 day after the end of the files before it; joined all the same" in warnings
+    assert max(map(len, shown.splitlines())) <= 80

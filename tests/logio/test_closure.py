@@ -106,3 +106,33 @@ def test_depth_follows_from_pressure_alone() -> None:
     # the error that the note names: gravity at the poles and the equator against 45 deg
     poles = gsw.z_from_p(1000.0, 90.0) / gsw.z_from_p(1000.0, 45.0)
     assert abs(poles - 1.0) == pytest.approx(0.0027, abs=0.0001)
+
+
+@pytest.mark.parametrize(("first", "last", "told"), [(600, 1100, False), (700, 1900, False), (600, 890, True)])
+def test_what_missing_samples_miss_is_no_current(first: int, last: int, told: bool) -> None:
+    """Of a dive of 2000 s; a gap of less than 300 s is bridged by the samples beside it."""
+    log, times, _, _ = dive_between_fixes()
+    there = (times <= first * SECOND) | (times >= last * SECOND)
+    thinned = [Channel(n, times[there], log[n].values[there]) for n in ("depth", "pitch", "heading")]
+    track = with_track(log.with_channels(*thinned))
+    (closure,) = json.loads(track.metadata["closures"])
+    assert closure["silent_s"] == pytest.approx(0.0 if told else last - first, abs=1e-6)
+    assert (closure["current_north_m_s"] is not None, closure["current_east_m_s"] is not None) == (told, told)
+    assert closure["closure_error_m"] > 100.0
+    assert ("and no current, since for" in track.metadata["track_note"]) != told
+
+
+def test_a_missing_dive_between_two_fixes_is_no_drift() -> None:
+    """Two dives 6 h apart, 10 km from one another, without a sample or a fix in between."""
+    log, _, _, _ = dive_between_fixes()
+    later = 6 * 3600 * SECOND
+    channels = []
+    for name, channel in log.channels.items():
+        moved = channel.values + (0.1 if name == "latitude" else 0.0)
+        times = np.concatenate([channel.time_ns, channel.time_ns + later])
+        channels.append(Channel(name, times, np.concatenate([channel.values, moved])))
+    for closure in json.loads(with_track(Log({c.name: c for c in channels}, "measured")).metadata["closures"]):
+        for when in ("before", "after"):
+            drift = closure[f"drift_{when}_m_s"]
+            # 0.1 degree further north the parallel is 0.2 % shorter
+            assert (drift["north"], drift["east"]) == pytest.approx(DRIFT, abs=1e-3)

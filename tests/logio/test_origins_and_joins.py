@@ -16,7 +16,7 @@ from conftest import ROOT, Run, one_line_error
 from glidercli.channels import PHASES
 from glidercli.errors import InputError, OutputError
 from glidercli.log import Channel, Log
-from glidercli.logio import read, replay, write
+from glidercli.logio import overview, read, replay, write
 from glidercli.logio.derived.seawater import with_seawater
 from glidercli.logio.derived.track import with_track
 from glidercli.logio.report import FileReport
@@ -125,7 +125,12 @@ def test_overlapping_files_add_up(tmp_path: Path) -> None:
 def test_files_far_apart_are_joined_and_it_is_said(tmp_path: Path) -> None:
     write(depth_log(0, 3), tmp_path / "a.csv")
     write(depth_log(5 * 86400, 3), tmp_path / "b.csv")
-    assert any("5.0 days after" in warning for warning in read([tmp_path]).files[1].warnings)
+    assert any("starts 5 days after the end of" in warning for warning in read([tmp_path]).files[1].warnings)
+    write(depth_log(763 * 86400, 3), tmp_path / "b.csv", force=True)
+    reading = read([tmp_path])
+    assert any("starts 2 years and 33 days after" in warning for warning in reading.files[1].warnings)
+    silence = overview(reading).silence
+    assert silence == (2 * SECOND, 763 * 86400 * SECOND)
 
 
 def test_origins_do_not_mix(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import gzip
+import tracemalloc
 from itertools import pairwise
 from pathlib import Path
 
@@ -271,3 +272,22 @@ def test_a_year_that_no_clock_can_hold_is_no_time(tmp_path: Path) -> None:
     row = GOOD[5].replace("21/07/2019 10:05:00", "06/02/2604 09:40:00")
     _, report = read_one(write(tmp_path, *GOOD[:5], row))
     assert report.dropped == (("time cannot be read", 1),)
+
+
+def test_a_line_of_millions_of_cells_costs_no_memory(tmp_path: Path) -> None:
+    """A few kB of gzip unpack to it; taken apart it would be a list of 20 million texts, 320 MB."""
+    path = tmp_path / "a.gz"
+    path.write_bytes(gzip.compress(f"{HEAD}\n".encode() + b";" * 20_000_000 + b"\n"))
+    tracemalloc.start()
+    _, report = read_one(path)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert report.dropped == (("wrong number of fields", 1),)
+    assert most < 200e6  # the text as bytes, as a text and as lines
+
+
+def test_capitals_make_no_other_vehicle(tmp_path: Path) -> None:
+    for name in ("sea035.12.gli.sub.36", "sea035.12.gli.sub.37"):
+        source = ROOT / "logs/seaexplorer-sea035" / name
+        (tmp_path / (name.upper() if name.endswith("37") else name)).write_bytes(source.read_bytes())
+    assert read([tmp_path]).log.metadata["platform"] == "SeaExplorer sea035"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import gzip
+import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -431,3 +432,14 @@ def test_what_is_no_dive_is_refused(tmp_path: Path) -> None:
     text.write_text(LOG.read_text().replace("start: 5 4 116 18 14 19", "start: 15 4 116 18 14 19"))
     with pytest.raises(InputError, match="is no time; allowed: month day years-since-1900"):
         read_seaglider(text)
+
+
+def test_an_enormous_setting_is_no_number(tmp_path: Path) -> None:
+    """A warning of numpy, an error here, told of the overflow of its product with a count."""
+    path = tmp_path / "a.log"
+    text = LOG.read_text("latin-1")
+    assert "\n$ROLL_CNV," in text
+    path.write_text(re.sub(r"\n\$(ROLL|PITCH|VBD)_CNV,[^\n]*", r"\n$\1_CNV,-1e308", text), "latin-1")
+    log = read([path]).log
+    assert not {"mass_position", "mass_rotation", "ballast_volume"} & log.channels.keys()
+    assert len(log["latitude"]) == len(read([LOG]).log["latitude"])

@@ -366,3 +366,18 @@ def test_a_folder_with_companions_names_no_broken_file(tmp_path: Path) -> None:
     found = read([tmp_path])
     assert sorted(report.path.name[-3:] for report in found.files) == ["DBD", "EBD"]
     assert all(report.error is None for report in found.files)
+
+
+@pytest.mark.parametrize(
+    ("name", "vehicle"),
+    [
+        ("unit-2019-220-0-1", "unit"),
+        ("unit_887-2021-321-3-0", "unit_887"),
+        ("dfo-rosie713-2019-220-0-1", "dfo-rosie713"),
+    ],
+)
+def test_a_vehicle_with_a_hyphen_in_its_name(name: str, vehicle: str, tmp_path: Path) -> None:
+    """Two vehicles of one owner were one, "dfo", and were joined."""
+    path = tmp_path / "renamed.dbd"
+    path.write_bytes(made(NAVIGATION, dive(), name=name).data)
+    assert read([path]).log.metadata["platform"] == f"Slocum {vehicle}"

@@ -51,6 +51,15 @@ def test_the_reckoned_positions_of_sea063_make_its_density_that_of_the_baltic():
     assert not [line for cast in casts for line in cast.warnings if "absolute salinity" in line]
 
 
+def test_a_payload_alone_tells_where_it_was() -> None:
+    """NAV_LATITUDE and NAV_LONGITUDE are those of the navigation file: 5529.383 is 55 deg and 29.383 minutes."""
+    log = read([SEA063 / "sea063.22.pld1.sub.120.gz"]).log
+    assert float(log.metadata["near_latitude_deg"]) == pytest.approx(55.0 + 29.35 / 60.0, abs=0.005)
+    assert float(log.metadata["near_longitude_deg"]) == pytest.approx(16.0 + 16.03 / 60.0, abs=0.005)
+    assert log["density"].values == pytest.approx(density_at(log, 16.2672, 55.4892), abs=1e-6)
+    assert not {"latitude", "longitude"} & log.channels.keys()
+
+
 @pytest.mark.parametrize("names", [("lat", "lon"), ("profile_lat", "profile_lon")])
 def test_interpolated_positions_of_ioos_files(tmp_path: Path, names):
     sea035 = read([ROOT / "logs/seaexplorer-sea035"]).log

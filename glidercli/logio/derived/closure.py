@@ -3,7 +3,9 @@
 Between two fixes with a dive between them the reckoned way through water misses the second fix. Two things carried the
 vehicle: at the surface, before it dived and after it came up, the surface drift, where fixes at least two minutes apart
 of one surfacing tell it; under water the rest, as a current that is constant over the dive: the depth-averaged current.
-Where no drift is known that current is taken to act at the surface, too.
+Where no drift is known that current is taken to act at the surface, too. Where nothing was recorded for more than a
+TENTH of the time under water, as where the files of a dive are missing, the rest is no current, and none is told; the
+track passes through the fixes all the same.
 """
 
 from __future__ import annotations
@@ -15,7 +17,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.logio.derived.motion import AFLOAT
+from glidercli.logio.derived.motion import AFLOAT, LONGEST_GAP
+from glidercli.utc import iso, to_second
 
 __all__ = ["Closure", "Fixes", "close", "closures_in"]
 
@@ -26,6 +29,10 @@ LEAST_DIVE = 10.0
 """m, depth between two fixes that makes a dive."""
 LEAST_DRIFT = 120.0
 """s between fixes of one surfacing that tell its drift: 5 m of error of each fix then make 0.06 m/s."""
+LONGEST_SURFACING = 3600 * 10**9
+"""ns between fixes without a sample, beyond which a dive may be missing: at the surface a glider calls more often."""
+TENTH = 0.1
+"""Part of the time under water without a sample: at 0.3 m/s through water a current is off by 0.03 m/s then."""
 
 
 class Fixes(NamedTuple):
@@ -60,6 +67,13 @@ class Closure(NamedTuple):
     before: Drift | None
     after: Drift | None
     """Surface drift before and after the dive, None where no two fixes tell it."""
+    silent: float
+    """s of it without a sample for longer than LONGEST_GAP."""
+
+    @property
+    def tells_current(self) -> bool:
+        """Whether enough of the way through water was recorded for what it misses to be a current."""
+        return self.silent <= TENTH * self.submerged
 
     @property
     def error(self) -> float:
@@ -68,32 +82,32 @@ class Closure(NamedTuple):
 
     def told(self) -> str:
         """In words."""
-        start = np.datetime64(self.start_ns, "ns").astype("datetime64[s]")
+        lasts = (self.end_ns - self.start_ns) * 1e-9
+        span = f"closure over {lasts:.0f} s from {to_second(self.start_ns)}: {self.error:.0f} m"
+        if not self.tells_current:
+            return f"{span}, and no current, since for {self.silent:.0f} s of it nothing was recorded"
         unknown = [name for name, drift in (("before", self.before), ("after", self.after)) if drift is None]
         drift = f", taken to act at the surface {' and '.join(unknown)} it, too" if unknown else ""
         return (
-            f"closure over {(self.end_ns - self.start_ns) * 1e-9:.0f} s from {start}Z: {self.error:.0f} m, after "
-            f"{self.way:.0f} m through water, a depth-averaged current of {self.current_east:.3f} m/s east, "
-            f"{self.current_north:.3f} m/s north{drift}"
+            f"{span}, after {self.way:.0f} m through water, a depth-averaged current of "
+            f"{self.current_east:.3f} m/s east, {self.current_north:.3f} m/s north{drift}"
         )
 
     def document(self) -> dict[str, Any]:
         """As JSON."""
-        start, end = (
-            f"{np.datetime_as_string(np.datetime64(t, 'ns'), unit='ms')}Z" for t in (self.start_ns, self.end_ns)
-        )
         drifts = {
             f"drift_{name}_m_s": None if drift is None else {"north": drift.north, "east": drift.east}
             for name, drift in (("before", self.before), ("after", self.after))
         }
         return {
-            "start": start,
-            "end": end,
+            "start": iso(self.start_ns),
+            "end": iso(self.end_ns),
             "submerged_s": self.submerged,
             "way_m": self.way,
             "closure_error_m": self.error,
-            "current_north_m_s": self.current_north,
-            "current_east_m_s": self.current_east,
+            "silent_s": self.silent,
+            "current_north_m_s": self.current_north if self.tells_current else None,
+            "current_east_m_s": self.current_east if self.tells_current else None,
             **drifts,
         }
 
@@ -116,7 +130,7 @@ def close(fixes: Fixes, times: Times, z: Array, north: Array, east: Array) -> tu
     n, e = (np.interp(fixes.time_ns, times, way) for way in (north, east))
     miss = np.stack([fixes.north - n, fixes.east - e], axis=1)
     dived = [_dives(times, z, *pair) for pair in zip(fixes.time_ns[:-1], fixes.time_ns[1:], strict=True)]
-    drifts = _drifts(fixes, dived)
+    drifts = _drifts(fixes, dived, times)
     knots: list[tuple[int, Array]] = [(int(fixes.time_ns[0]), miss[0])]
     closures = []
     for i, dive in enumerate(dived):
@@ -130,7 +144,8 @@ def close(fixes: Fixes, times: Times, z: Array, north: Array, east: Array) -> tu
             way = math.hypot(n[i + 1] - n[i], e[i + 1] - e[i])
             u_north, u_east = map(float, current)
             submerged = (up - down) * 1e-9
-            closures.append(Closure(start, end, submerged, way, u_north, u_east, drifts[i], drifts[i + 1]))
+            silent = _silent(times, z, start, end)
+            closures.append(Closure(start, end, submerged, way, u_north, u_east, drifts[i], drifts[i + 1], silent))
             knots += [(down, first), (up, last)]
         knots.append((end, miss[i + 1]))
     every = np.union1d(times, fixes.time_ns)
@@ -142,6 +157,15 @@ def close(fixes: Fixes, times: Times, z: Array, north: Array, east: Array) -> tu
 
 def _way(drift: Drift | None, span_ns: int) -> Array:
     return np.zeros(2) if drift is None else np.array(drift) * span_ns * 1e-9
+
+
+def _silent(times: Times, z: Array, start: int, end: int) -> float:
+    """How long between two fixes no sample tells that it was at the surface, s, in gaps longer than LONGEST_GAP."""
+    first, last = np.searchsorted(times, start), np.searchsorted(times, end, side="right")
+    inside = times[first:last]
+    edges = [[t] for t, edge in ((start, first), (end, last - 1)) if z[edge] >= LEAST_DIVE]
+    steps = np.diff(np.unique(np.concatenate([inside, *edges]))) * 1e-9
+    return float(steps[steps > LONGEST_GAP].sum())
 
 
 def _dives(times: Times, z: Array, start: int, end: int) -> tuple[int, int] | None:
@@ -156,11 +180,13 @@ def _dives(times: Times, z: Array, start: int, end: int) -> tuple[int, int] | No
     return max(down, start), min(up, end)
 
 
-def _drifts(fixes: Fixes, dived: list[tuple[int, int] | None]) -> list[Drift | None]:
-    """The surface drift of the surfacing that each fix belongs to."""
+def _drifts(fixes: Fixes, dived: list[tuple[int, int] | None], times: Times) -> list[Drift | None]:
+    """The surface drift of the surfacing that each fix belongs to; an hour without a fix or a sample is of none."""
     drifts: list[Drift | None] = []
+    between = np.searchsorted(times, fixes.time_ns[1:]) - np.searchsorted(times, fixes.time_ns[:-1], side="right")
+    parted = (np.diff(fixes.time_ns) > LONGEST_SURFACING) & (between == 0)
     first = 0
-    for last in [*(i for i, dive in enumerate(dived) if dive is not None), len(fixes.time_ns) - 1]:
+    for last in [*(i for i, dive in enumerate(dived) if dive is not None or parted[i]), len(fixes.time_ns) - 1]:
         span = (fixes.time_ns[last] - fixes.time_ns[first]) * 1e-9
         drift = None
         if span >= LEAST_DRIFT:

@@ -21,6 +21,7 @@ from glidercli.logio.derived.motion import LONGEST_GAP
 from glidercli.logio.jumps import beyond
 from glidercli.places import track_of_geodetic
 from glidercli.units import DEGREE
+from glidercli.utc import to_second
 
 __all__ = ["with_track"]
 
@@ -131,9 +132,9 @@ def _uncorrected(fixed: Times, times: Times) -> list[str]:
     head, tail = (fixed[0] - times[0]) * 1e-9, (times[-1] - fixed[-1]) * 1e-9
     notes = []
     if head > 0.0:
-        notes.append(f"not corrected for current in the {head:.0f} s before the first fix, {_clock(fixed[0])}")
+        notes.append(f"not corrected for current in the {head:.0f} s before the first fix, {to_second(fixed[0])}")
     if tail > 0.0:
-        notes.append(f"not corrected for current in the {tail:.0f} s after the last fix, {_clock(fixed[-1])}")
+        notes.append(f"not corrected for current in the {tail:.0f} s after the last fix, {to_second(fixed[-1])}")
     return notes
 
 
@@ -144,8 +145,3 @@ def _at_surface(log: Log, times: Times) -> NDArray[np.bool_]:
         _, rows, source = np.intersect1d(times, log["phase"].time_ns, assume_unique=True, return_indices=True)
         afloat[rows] = log["phase"].values[source] == SURFACE
     return afloat
-
-
-def _clock(time_ns: int) -> str:
-    """A time as ISO 8601 UTC to the second."""
-    return f"{np.datetime64(int(time_ns), 'ns').astype('datetime64[s]')}Z"

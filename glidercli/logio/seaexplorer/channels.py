@@ -57,6 +57,8 @@ COLUMNS = {
 }
 USED = (*COLUMNS, "NavState", "Lat", "Lon")
 """Columns that channels are taken from."""
+PLACES = (("Lat", "Lon"), ("NAV_LATITUDE", "NAV_LONGITUDE"))
+"""Positions of navigation and of payload files, which repeat them."""
 NOTES = {
     "mass_position_zero": "the actuator's own zero (LinPos), not the model's",
     "mass_rotation_note": "mass_rotation = -AngPos: recorded roll follows AngPos, the model's rotation opposes it",
@@ -127,8 +129,9 @@ def _fixes(time_ns: Times, used: Mapping[str, Array], warnings: list[str]) -> li
 
 def near_of(time_ns: Times, table: Mapping[str, Array]) -> Whereabouts | None:
     """Where the vehicle took itself to be, by ``channels_of``'s arguments; None where the file does not tell."""
-    if not {"Lat", "Lon"} <= table.keys():
+    names = next((pair for pair in PLACES if table.keys() >= set(pair)), None)
+    if names is None:
         return None
-    ddmm = [np.where(np.isin(table[name], SENTINELS), np.nan, table[name]) for name in ("Lat", "Lon")]
+    ddmm = [np.where(np.isin(table[name], SENTINELS), np.nan, table[name]) for name in names]
     latitude, longitude = (degrees(value) for value in ddmm)
     return whereabouts(time_ns, latitude, longitude)

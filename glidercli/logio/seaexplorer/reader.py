@@ -16,8 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
-from glidercli.gzipped import beginning, unpacked
+from glidercli.gzipped import DAMAGED, beginning, unpacked
 from glidercli.log import Log
+from glidercli.logio.cut_text import CUT, ends_open
+from glidercli.logio.number_cells import numbers
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import sampled, to_ns, usable
 from glidercli.logio.report import FileReport
@@ -25,7 +27,6 @@ from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, USED, channel
 
 __all__ = ["is_seaexplorer", "read_seaexplorer"]
 
-Array = NDArray[np.float64]
 Times = NDArray[np.int64]
 
 MOST_COLUMNS = 2000
@@ -59,21 +60,22 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
     rows, foreign = _rows(lines, names, dropped)
     records = len(rows) + dropped.total()
     time_ns = _times([row[0] for row in rows])
-    table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if i > 0 and name}
+    table = {name: numbers([row[i] for row in rows]) for i, name in enumerate(names) if i > 0 and name}
     known = {name: np.where(np.isin(values, SENTINELS), np.nan, values) for name, values in table.items()}
     good = usable(time_ns, known, dropped)
     unread = tuple(name for name, values in known.items() if name not in USED and not np.isnan(values[good]).all())
     table = {name: values[good] for name, values in table.items()}
     channels, warnings = channels_of(time_ns[good], table)
     named = NAME.match(path.name)
-    whose = {"platform": f"SeaExplorer {named[1]}"} if named else {}
+    whose = {"platform": f"SeaExplorer {named[1].lower()}"} if named else {}
     whose["title"] = f"{whose.get('platform', 'SeaExplorer')} log"
     log = Log({channel.name: channel for channel in channels if len(channel)}, "measured", whose | NOTES)
     kept = sampled(time_ns[good], log.channels)
     if not kept.all():
         dropped["no usable value"] += int((~kept).sum())
-    damaged = "" if whole else "gzip data cut short or damaged: only what could be unpacked was read"
-    error = "; ".join(fault for fault in (damaged, foreign) if fault) or None
+    damaged = "" if whole else DAMAGED
+    cut = CUT if whole and ends_open(data) and _lacks_fields(lines[-1], names) else ""
+    error = "; ".join(fault for fault in (damaged, foreign, cut) if fault) or None
     report = FileReport(
         path, "seaexplorer", records, int(kept.sum()), tuple(sorted(dropped.items())), tuple(warnings), error
     )
@@ -93,9 +95,9 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
 
 def _names(path: Path, header: str) -> list[str]:
     """The columns of a header; the last is "" where it ends in a semicolon."""
+    if (count := header.count(";") + 1) > MOST_COLUMNS:
+        raise InputError(path, f"line 1: names {count} columns; at most {MOST_COLUMNS} are allowed")
     names = [name.strip() for name in header.split(";")]
-    if len(names) > MOST_COLUMNS:
-        raise InputError(path, f"line 1: names {len(names)} columns; at most {MOST_COLUMNS} are allowed")
     twice = [name for name, count in Counter(names).items() if name and count > 1]
     if twice:
         raise InputError(path, f"line 1: column {twice[0]} stands there twice; each may once")
@@ -110,6 +112,9 @@ def _rows(lines: list[str], names: list[str], dropped: Counter[str]) -> tuple[li
     rows: list[list[str]] = []
     for number, line in enumerate(lines[1:], 2):
         if not line.strip():
+            continue
+        if line.count(";") > MOST_COLUMNS:  # no line of a million cells is taken apart
+            dropped["wrong number of fields"] += 1
             continue
         cells = [cell.strip() for cell in line.split(";")]
         if cells[0] in (NAVIGATION, PAYLOAD):
@@ -128,6 +133,11 @@ def _rows(lines: list[str], names: list[str], dropped: Counter[str]) -> tuple[li
     return rows, ""
 
 
+def _lacks_fields(line: str, names: list[str]) -> bool:
+    """Whether a line that is not blank has fewer fields than the header."""
+    return bool(line.strip()) and line.count(";") < len(names) - 1
+
+
 def _partner(recording: re.Match[str] | None) -> str:
     """The payload recording beside a navigation one, and the other way round."""
     if recording is None:
@@ -143,13 +153,3 @@ def _times(texts: list[str]) -> Times:
     parsed = pd.to_datetime(pd.Series(texts, dtype=object), format="%d/%m/%Y %H:%M:%S.%f", errors="coerce")
     whole = pd.to_datetime(pd.Series(texts, dtype=object), format="%d/%m/%Y %H:%M:%S", errors="coerce")
     return to_ns(parsed.fillna(whole))
-
-
-def _numbers(texts: list[str]) -> Array:
-    """Numbers; NaN where a cell is blank, infinite where it is no number."""
-    import pandas as pd
-
-    values = pd.to_numeric(pd.Series(texts, dtype=object), errors="coerce").to_numpy(dtype=float, copy=True)
-    told = np.array([text.lower() not in ("", "nan") for text in texts], dtype=bool)
-    values[told & np.isnan(values)] = np.inf
-    return values

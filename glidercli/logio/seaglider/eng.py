@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from glidercli.errors import InputError
-from glidercli.gzipped import unpacked
+from glidercli.gzipped import DAMAGED, unpacked
 from glidercli.log import Log
+from glidercli.logio.cut_text import CUT
+from glidercli.logio.number_cells import numbers
 from glidercli.logio.quantities import channel_of
 from glidercli.logio.reader import Part
 from glidercli.logio.seaglider.actuators import clear_of_motors
@@ -39,7 +38,7 @@ def read_eng(path: Path, data: bytes) -> Part:
     gathering.records += len(split) - len(rows)
     gathering.drop("", "wrong number of fields", len(split) - len(rows))
     used = (TIME, *COLUMNS)
-    table = {name: _numbers([row[i] for row in rows]) for i, name in enumerate(names) if name in used}
+    table = {name: numbers([row[i] for row in rows]) for i, name in enumerate(names) if name in used}
     gathering.unread += [
         name for i, name in enumerate(names) if name not in used and any(row[i].lower() != "nan" for row in rows)
     ]
@@ -58,9 +57,10 @@ def read_eng(path: Path, data: bytes) -> Part:
         )
     gathering.metadata["depth_note"] = "depth as the vehicle reckoned it, not corrected for latitude as that of a .nc"
     gathering.keep_rows("", time_ns, channels)
-    if log and "phase" in log:
-        gathering.channels.append(held(log["phase"], time_ns, log.end_ns))
-    return gathering.part(path, text.dive, ("eng",))
+    if log and "phase" in log and len(phase := held(log["phase"], time_ns, log.end_ns)):
+        gathering.channels.append(phase)
+    error = CUT if text.open and len(split[-1]) < len(names) else None
+    return gathering.part(path, text.dive, ("eng",), error=error)
 
 
 def _beside(path: Path, dive: Dive, gathering: Gathering) -> tuple[float | None, Log | None]:
@@ -73,25 +73,17 @@ def _beside(path: Path, dive: Dive, gathering: Gathering) -> tuple[float | None,
         )
         return None, None
     try:
-        data, _ = unpacked(beside, beside.read_bytes())
+        data, whole = unpacked(beside, beside.read_bytes())
         if not is_text(data):
             raise InputError(beside, "is no .log of a Seaglider")
         text = read_text(beside, data)
         if text.dive != dive:
             raise InputError(beside, f"is of {text.dive.name or 'an unknown dive'}, this is {dive.name or 'unknown'}")
-        log = read_log(beside, data).log
+        part = read_log(beside, data)
         gathering.beside.append(beside)
-        return declination_of(text.lines), log
+        if fault := part.report.error if whole else DAMAGED:
+            gathering.warnings.append(f"{beside.name} beside it: {fault}")
+        return declination_of(text.lines), part.log
     except (OSError, InputError) as error:
         gathering.warnings.append(f"{beside.name} beside it is not used: it {str(error).removeprefix(f'{beside}: ')}")
         return None, None
-
-
-def _numbers(texts: list[str]) -> NDArray[np.float64]:
-    """Numbers; NaN where a cell says nan, infinite where it is no number."""
-    import pandas as pd
-
-    values = pd.to_numeric(pd.Series(texts, dtype=object), errors="coerce").to_numpy(dtype=float, copy=True)
-    told = np.array([text.lower() != "nan" for text in texts], dtype=bool)
-    values[told & np.isnan(values)] = np.inf
-    return values

@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from glidercli.logio.cut_text import CUT
 from glidercli.logio.quantities import channel_of, degrees
 from glidercli.logio.reader import Part
 from glidercli.logio.records import NO_TIME
@@ -35,6 +36,8 @@ OLD_HEAD = (
     "pitch_ad,roll_ad,vbd_ad"
 )
 SETTINGS = ("C_PITCH", "PITCH_CNV", "C_ROLL_DIVE", "C_ROLL_CLIMB", "ROLL_CNV", "C_VBD", "VBD_CNV", "VBD_LP_IGNORE")
+LARGEST_SETTING = 1e6
+"""Centres are up to 4095 counts, conversions a fraction of a cm, deg or cm3 for each."""
 PADDING = [""] * 6
 """Fields that a fix which was cut short may lack."""
 
@@ -44,9 +47,15 @@ def read_log(path: Path, data: bytes) -> Part:
     text = read_text(path, data)
     gathering = Gathering(text.start_ns, metadata=text.about)
     lines = [(key, rest.split(",")) for key, _, rest in (line.partition(",") for line in text.lines)]
+    cut = text.open and _lacks_fields(lines)
+    if cut:
+        lines.pop()
     settings = {key[1:]: to_number(fields[0]) for key, fields in lines if key[1:] in SETTINGS}
+    settings = {name: value for name, value in settings.items() if abs(value) < LARGEST_SETTING}
     sampled = (*FIXES, "$GC", "$STATE", "$SM_CCo")
     gathering.records = sum(key not in sampled for key, _ in lines)
+    gathering.records += cut
+    gathering.drop("", "cut short", int(cut))
     gathering.drop("", "a setting, no sample", sum(key not in sampled and key.startswith("$") for key, _ in lines))
     gathering.drop("", "no line of the form $KEY,value", sum(not key.startswith("$") for key, _ in lines))
     states = _states(text, [fields for key, fields in lines if key == "$STATE"], gathering)
@@ -61,7 +70,17 @@ def read_log(path: Path, data: bytes) -> Part:
     for fields in pumped[:1]:
         gathering.events += surface_pump([to_number(field) for field in fields], text.start_ns)
     _fixes([fields for key, fields in lines if key in FIXES], gathering)
-    return gathering.part(path, text.dive, ("log",), yields=frozenset({"depth"}))
+    return gathering.part(path, text.dive, ("log",), yields=frozenset({"depth"}), error=CUT if cut else None)
+
+
+def _lacks_fields(lines: list[tuple[str, list[str]]]) -> bool:
+    """Whether the last line ends before others of its key do, or names a state that is none."""
+    key, fields = lines[-1]
+    kind = FIXES if key in FIXES else (key,)
+    others = [len(others) for name, others in lines[:-1] if name in kind]
+    if key == "$STATE" and len(fields) > 1 and number_of(fields[1].strip()) < 0:
+        return True
+    return fields == [""] or not key.startswith("$") or len(fields) < min(others, default=0)
 
 
 def declination_of(lines: list[str]) -> float | None:

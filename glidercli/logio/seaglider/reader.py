@@ -6,7 +6,7 @@ import dataclasses
 from pathlib import Path
 
 from glidercli.errors import InputError
-from glidercli.gzipped import beginning, unpacked
+from glidercli.gzipped import DAMAGED, beginning, unpacked
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.seaglider.eng import read_eng
 from glidercli.logio.seaglider.log_text import read_log
@@ -42,5 +42,4 @@ def read_seaglider(path: Path, aids: Aids = Aids()) -> Part:
         raise InputError(path, "is no file of a Seaglider: neither a basestation's .nc nor a .eng or .log text")
     if whole:
         return part
-    error = "gzip data cut short or damaged: only what could be unpacked was read"
-    return dataclasses.replace(part, report=dataclasses.replace(part.report, error=error))
+    return dataclasses.replace(part, report=dataclasses.replace(part.report, error=DAMAGED))

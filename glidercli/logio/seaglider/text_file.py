@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import NamedTuple
 
@@ -10,13 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
+from glidercli.logio.cut_text import ends_open
 from glidercli.logio.records import NO_TIME
 from glidercli.logio.seaglider.gathering import Dive
 
 __all__ = ["TextFile", "is_text", "read_text", "since", "to_number", "utc_ns"]
 
 LONGEST = 64 * 2**20
-"""Bytes of a text that are read; those of a dive are some 10 kB."""
+"""Bytes that a text may have; those of a dive have some 10 kB."""
+EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
+ENORMOUS = 1e301
+"""A larger number is none: its product with a setting may be too large for one."""
 FURTHEST = 1e8
 """s; three years."""
 
@@ -25,11 +30,13 @@ class TextFile(NamedTuple):
     """A text, taken apart.
 
     header : entries before "data:". lines : those after it, blank ones left out. start_ns : start of the dive, UTC ns.
+    open : whether the last line has no line end.
     """
 
     header: dict[str, str]
     lines: list[str]
     start_ns: int
+    open: bool
 
     @property
     def dive(self) -> Dive:
@@ -50,13 +57,16 @@ def is_text(data: bytes) -> bool:
 
 
 def read_text(path: Path, data: bytes) -> TextFile:
-    """Take a text apart. Raises InputError where no start of the dive is told."""
+    """Take a text apart. Raises InputError where no start of the dive is told, or it is too long."""
+    if len(data) > LONGEST:
+        raise InputError(path, f"has {len(data) / 1e6:.0f} MB of text; at most {LONGEST / 1e6:.0f} MB are allowed")
     header: dict[str, str] = {}
-    lines = [line.strip() for line in data[:LONGEST].decode("latin-1").replace("\r", "\n").split("\n")]
+    lines = [line.strip() for line in data.decode("latin-1").replace("\r", "\n").split("\n")]
     for number, line in enumerate(lines):
         key, _, value = line.lstrip("%").partition(":")
         if key.strip() == "data":
-            return TextFile(header, [text for text in lines[number + 1 :] if text], _start(path, header))
+            kept = [text for text in lines[number + 1 :] if text]
+            return TextFile(header, kept, _start(path, header), bool(kept) and bool(lines[-1]) and ends_open(data))
         header[key.strip()] = value.strip()
     raise InputError(path, 'is damaged: no line "data:" after its header')
 
@@ -76,11 +86,11 @@ def _start(path: Path, header: dict[str, str]) -> int:
 
 def utc_ns(year: int, month: int, day: int, hour: int, minute: int, second: int) -> int:
     """A time as UTC ns, or NO_TIME where there is no such."""
-    text = f"{year:04d}-{month:02d}-{day:02d}T{hour:02d}:{minute:02d}:{second:02d}"
     try:
-        return int(np.datetime64(text, "ns").astype(np.int64)) if 1970 <= year < 2200 else NO_TIME
-    except ValueError:
+        moment = datetime(year, month, day, hour, minute, second, tzinfo=UTC)
+    except (ValueError, OverflowError):
         return NO_TIME
+    return (moment - EPOCH) // timedelta(seconds=1) * 10**9 if 1970 <= year < 2200 else NO_TIME
 
 
 def since(start_ns: int, seconds: Sequence[float] | NDArray[np.float64]) -> NDArray[np.int64]:
@@ -96,9 +106,9 @@ def _integer(text: str) -> int | None:
 
 
 def to_number(text: str) -> float:
-    """A number, or NaN where a text is none or not finite."""
+    """A number, or NaN where a text is none, or one that no .log holds."""
     try:
         value = float(text)
     except ValueError:
         return float("nan")
-    return value if np.isfinite(value) else float("nan")
+    return value if abs(value) < ENORMOUS else float("nan")

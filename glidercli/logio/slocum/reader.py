@@ -86,7 +86,7 @@ def read_slocum(path: Path, aids: Aids = Aids()) -> Part:
         tuple(warnings), "; ".join(text for text in (damage, cycles.error) if text) or None, caches,
     )  # fmt: skip
     recording = tags["full_filename"].lower()
-    platform = f"Slocum {recording.split('-')[0]}"
+    platform = f"Slocum {recording.rsplit('-', 4)[0]}"  # name-year-day-mission-segment
     told = {"platform": platform, "title": f"{platform} log", "mission": tags.get("mission_name", "")} | notes
     return Part(
         Log(
