@@ -6,12 +6,12 @@ A file and a live connection hold the same chunks; they differ in where these go
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from glidercli.log import Log
+from glidercli.log import Event, Log
 from glidercli.logio.rerun.about import about
 from glidercli.logio.rerun.blueprint import blueprint
 from glidercli.logio.rerun.plots import Plots
@@ -48,10 +48,10 @@ class Contents:
             yield [*self._plots.values(piece), *self._scene.moving(piece)]
         self._end_ns = max(self._end_ns, log.end_ns)
 
-    def whole(self, log: Log) -> tuple[list[Chunk], Any]:
+    def whole(self, log: Log, events: bool = True) -> tuple[list[Chunk], Any]:
         """What can be told when the last piece is there, and the panels, a rerun Blueprint.
 
-        log : that piece, with all events and the final metadata.
+        log : that piece, with all events and the final metadata. events : whether they are among what is told.
         """
         import rerun as rr
 
@@ -60,16 +60,24 @@ class Contents:
         page = rr.TextDocument(about(whole, drawn.notes), media_type=rr.MediaType.MARKDOWN)
         span_ns = self._end_ns - self._first.start_ns
         views = blueprint(whole, span_ns, drawn.camera, self._scene.has_hull, drawn.has_plan)
-        return [*self._header(log), *drawn.chunks, row("/about", page)], views
+        told = self.events(log.events) if events else []
+        return [self._header(log), *told, *drawn.chunks, row("/about", page)], views
 
-    def _header(self, log: Log) -> Iterator[Chunk]:
-        """Name and start of the recording, and its events."""
+    def events(self, events: Sequence[Event]) -> list[Chunk]:
+        """Events as lines of text."""
+        import rerun as rr
+
+        if not events:
+            return []
+        texts = [e.name if e.depth is None else f"{e.name}, depth {e.depth:.1f} m" for e in events]
+        times = np.array([e.time_ns for e in events], dtype=np.int64)
+        lines = rr.TextLog.columns(text=texts, level=["INFO"] * len(texts))
+        return [columns("/events", self._scene.zero_ns, times, lines)]
+
+    def _header(self, log: Log) -> Chunk:
+        """Name and start of the recording."""
         import rerun as rr
 
         start_ns = self._scene.zero_ns
         name = f"{log.kind} {np.datetime64(start_ns // 10**9, 's')} UTC"
-        yield row("/__properties", rr.archetypes.RecordingInfo(start_time=start_ns, name=name))
-        if log.events:
-            texts = [e.name if e.depth is None else f"{e.name}, depth {e.depth:.1f} m" for e in log.events]
-            times = np.array([e.time_ns for e in log.events], dtype=np.int64)
-            yield columns("/events", start_ns, times, rr.TextLog.columns(text=texts, level=["INFO"] * len(texts)))
+        return row("/__properties", rr.archetypes.RecordingInfo(start_time=start_ns, name=name))
