@@ -10,7 +10,7 @@ from glidercli.log import Log
 
 __all__ = ["Pace", "between"]
 
-STEP = 0.1
+STEP = 0.2
 """s of the clock between two pieces."""
 BILLION = 1_000_000_000
 
