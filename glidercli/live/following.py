@@ -56,9 +56,13 @@ class Follower:
         self, paths: Sequence[str | Path], format: str | None, cache: Path | None, columns: Path | None,
         tell: Callable[[str], None], folder: Path,
     ) -> None:  # fmt: skip
+        self._patient = not all(Path(given).is_file() for given in paths)
         for path in files_of(paths):
+            if not path.exists():
+                raise InputError(path, "no such file")
             if any(Path(given) == path for given in paths) and path.is_file() and path.stat().st_size:
                 check_followable(path)
+        self._patient = not all(Path(given).is_file() for given in paths)
         self._paths, self._format, self._cache, self._columns = paths, format, cache, columns
         self._tell = tell
         self._files = GrowingFiles(format, tell, folder)
@@ -77,7 +81,7 @@ class Follower:
         except InputError as error:
             self._once(str(error))
             return None
-        if not self._files.changed(files):
+        if files and not self._files.changed(files):
             return None
         begun = time.monotonic()
         try:
@@ -85,7 +89,7 @@ class Follower:
                 self._paths, self._format, cache=self._cache, columns=self._columns, reader=self._files.parts
             )
         except (InputError, FileNotFoundError) as error:
-            if self.reading is None and not self._files.waiting:
+            if self.reading is None and not self._files.waiting and not self._patient:
                 raise
             self._once(self._files.waiting or str(error))
             return None
