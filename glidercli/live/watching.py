@@ -18,7 +18,7 @@ from glidercli.log import Log
 
 __all__ = ["follow"]
 
-POLL, SHARE = 1.0, 4.0
+POLL, SHARE = 1.0, 2.0
 """s between two looks at files, at least, and at least so many times what a look takes."""
 GREW, DOUBLED = 1.02, 2.0
 """By how much a log grows until its track is drawn anew, and until cameras are set anew."""

@@ -143,6 +143,15 @@ def test_a_viewer_that_is_closed_ends_it(tmp_path: Path) -> None:
         assert run.said[-1] == "the Rerun web viewer was closed; no viewer is left"
 
 
+def test_a_viewer_that_hangs_does_not_hang_us(tmp_path: Path) -> None:
+    with running("replay", DIVE, "--serve", "--rate", "500", cwd=tmp_path) as run:
+        ports(run)
+        (viewer,) = children(run.process.pid)
+        os.kill(viewer, signal.SIGSTOP)
+        assert run.end(signal.SIGINT) == 0, run.said
+        assert not Path(f"/proc/{viewer}").exists()
+
+
 def test_a_viewer_that_dies_while_others_watch(tmp_path: Path) -> None:
     with running("replay", DIVE, "--serve", "--foxglove", "--rate", "2000", cwd=tmp_path) as run:
         watcher = Watcher(run.url())
@@ -193,6 +202,6 @@ def test_a_window_that_does_not_open_is_one_line(glider: Run) -> None:
     """A display that is not there: the viewer ends by itself."""
     bare = {name: value for name, value in os.environ.items() if not re.match("DISPLAY|WAYLAND", name)}
     done = glider("replay", DIVE, "--spawn", env={**bare, "DISPLAY": ":1897"})
-    assert done.returncode in (0, 1)
+    assert done.returncode in (0, 1)  # 0 where it listened for a moment
     assert "Traceback" not in done.stderr
     assert "the Rerun viewer" in done.stderr.splitlines()[-1]
