@@ -6,7 +6,7 @@ import dataclasses
 import glob
 import os
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from glidercli.errors import InputError
@@ -22,7 +22,7 @@ from glidercli.logio.report import FileReport, all_dropped
 from glidercli.logio.spreading import read_all
 from glidercli.logio.whereabouts import joined_whereabouts
 
-__all__ = ["Reading", "read"]
+__all__ = ["Reading", "files_of", "read"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -55,6 +55,7 @@ def read(
     cache: str | Path | None = None,
     columns: str | Path | None = None,
     workers: int = 1,
+    reader: Callable[[list[Path], Aids], Iterable[Part | FileReport]] | None = None,
 ) -> Reading:
     """The Log of files, folders and quoted globs, with what can be derived, and an account of every file.
 
@@ -63,6 +64,7 @@ def read(
     cache : folder of Slocum caches, asked after those beside a file. columns : TOML that maps the columns of tables.
     workers : processes that many files are spread over; a script that asks for more than one needs the usual guard
     ``if __name__ == "__main__"``.
+    reader : gives what each file gives, in their order, in place of reading them here.
 
     Raises
     ------
@@ -77,11 +79,12 @@ def read(
     if columns is not None:
         readable_file(Path(columns))
     aids = Aids(None if cache is None else Path(cache), None if columns is None else Path(columns))
-    files = _files(paths)
+    files = files_of(paths)
     parts: list[Part] = []
     reports: dict[Path, FileReport] = {}
     unread: dict[str, None] = {}
-    for found in read_all(list(files), format, aids, progress, workers):
+    given = read_all(list(files), format, aids, progress, workers) if reader is None else reader(list(files), aids)
+    for found in given:
         report = found.report if isinstance(found, Part) else found
         if report.format is None and files[report.path] and is_companion(report.path):
             continue
@@ -121,7 +124,7 @@ def _without_outputs(parts: list[Part], files: dict[Path, bool], reports: dict[P
     return left
 
 
-def _files(paths: Sequence[str | Path]) -> dict[Path, bool]:
+def files_of(paths: Sequence[str | Path]) -> dict[Path, bool]:
     """Every file that the paths name, each once, those of folders and globs sorted; and whether a folder holds it."""
     found: list[tuple[Path, bool]] = []
     for given in paths:

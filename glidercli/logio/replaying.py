@@ -11,7 +11,7 @@ from glidercli.channels import CHANNELS
 from glidercli.errors import InputError, UsageError
 from glidercli.files import check_not_inputs, check_outputs
 from glidercli.log import Channel, Log
-from glidercli.logio.reading import read
+from glidercli.logio.reading import Reading, read
 from glidercli.logio.records import NO_TIME, to_ns
 from glidercli.logio.report import FileReport
 from glidercli.logio.writing import SUFFIXES, write
@@ -75,6 +75,7 @@ def replay(
     workers: int = 1,
     progress: Callable[[float, float], None] | None = None,
     stage: Callable[[str], None] | None = None,
+    reading: Reading | None = None,
 ) -> Replay:
     """Read logs, account for every record, and write the outputs.
 
@@ -86,12 +87,14 @@ def replay(
     attach : whether the files that were read go into every .mcap; a UsageError where there is none.
     strict : a file that cannot be read, or not as a whole, is an InputError, and nothing is written.
     progress : is told the files read and the files to read. stage : is told what is done after that.
+    reading : what the paths gave, where they have been read.
     """
     targets = [Path(path) for path in outputs]
     if attach and not any(target.suffix.lower() == ".mcap" for target in targets):
         raise UsageError("--attach puts the files into an .mcap; -o NAME.mcap is needed")
     check_outputs(targets, SUFFIXES, force)
-    reading = read(paths, format, progress, cache=cache, columns=columns, workers=workers)
+    if reading is None:
+        reading = read(paths, format, progress, cache=cache, columns=columns, workers=workers)
     log = reading.log
     broken = [report for report in reading.files if report.error is not None]
     if strict and broken:

@@ -15,7 +15,7 @@ from glidercli.logio.formats import FORMATS, recognised
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport
 
-__all__ = ["read_all"]
+__all__ = ["read_all", "read_one"]
 
 LARGE = 20_000_000
 """Bytes in all from which on it pays to start processes, which takes a second."""
@@ -37,7 +37,7 @@ def read_all(
     size = sum(path.stat().st_size for path in files if path.is_file())
     if workers < 2 or len(files) < 2 or size < LARGE:
         for done, path in enumerate(files, 1):
-            yield _read(path, format, aids)
+            yield read_one(path, format, aids)
             tell(done, len(files))
         return
     from concurrent.futures import ProcessPoolExecutor
@@ -47,7 +47,7 @@ def read_all(
     # spawn, not fork: the thread of the progress bar may hold a lock at the moment of a fork
     pool = ProcessPoolExecutor(min(workers, len(files)), get_context("spawn"), initializer=_deaf)
     try:
-        futures = deque(pool.submit(_read, path, format, aids) for path in files)
+        futures = deque(pool.submit(read_one, path, format, aids) for path in files)
         while futures:
             try:
                 found = futures.popleft().result()
@@ -66,7 +66,7 @@ def _deaf() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def _read(path: Path, format: str | None, aids: Aids) -> Part | FileReport:
+def read_one(path: Path, format: str | None, aids: Aids) -> Part | FileReport:
     """What a file gives; where it gives nothing the report, with the format as far as it was recognised."""
     name = format
     try:

@@ -17,6 +17,7 @@ from mcap.reader import make_reader
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import InputError, OutputError
 from glidercli.log import Channel, Event, Log
+from glidercli.logio.mcap import contents as mcap_contents
 from glidercli.logio.mcap import writer as mcap_writer
 from glidercli.logio.mcap.reader import is_mcap, read_mcap_log
 from glidercli.logio.mcap.writer import write_mcap
@@ -185,7 +186,7 @@ def test_a_log_in_pieces_comes_back_to_the_last_bit(
 ) -> None:
     path = tmp_path_factory.mktemp("mcap") / "a.mcap"
     with pytest.MonkeyPatch.context() as patch, path.open("wb") as stream:
-        patch.setattr(mcap_writer, "PIECE", samples)
+        patch.setattr(mcap_contents, "PIECE", samples)
         file = mcap_writer.McapLog(stream)
         file.add(log)
         file.close(log)
@@ -200,7 +201,7 @@ def test_pieces_show_what_the_whole_shows(tmp_path: Path, monkeypatch: pytest.Mo
     odd = Channel("pitch", log["pitch"].time_ns[5::7] + 3, 0.1 * np.ones(len(log["pitch"].time_ns[5::7])), "derived")
     found = []
     for piece in (100_000, 211):
-        monkeypatch.setattr(mcap_writer, "PIECE", piece)
+        monkeypatch.setattr(mcap_contents, "PIECE", piece)
         write_mcap(log.with_channels(odd), tmp_path / "a.mcap")
         with (tmp_path / "a.mcap").open("rb") as stream:
             topics: dict[str, list[tuple[int, bytes]]] = {}

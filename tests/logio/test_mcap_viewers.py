@@ -20,7 +20,8 @@ from mcap.reader import make_reader
 
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.log import Channel, Event, Log
-from glidercli.logio.mcap.writer import statement, write_mcap
+from glidercli.logio.mcap.contents import statement
+from glidercli.logio.mcap.writer import write_mcap
 
 PYMCAP = Path(sys.executable).with_name("pymcap-cli")
 START = 1_313_000_000_123_456_789

@@ -6,23 +6,18 @@ keeps them when the end is lost.
 
 from __future__ import annotations
 
-import dataclasses
 import mimetypes
 from collections.abc import Sequence
 from pathlib import Path
 from typing import IO
 
-import numpy as np
-
 from glidercli.errors import OutputError
 from glidercli.log import Log
-from glidercli.logio.mcap.file import McapFile, Topic
-from glidercli.logio.mcap.messages import Messages, message, timestamp
-from glidercli.logio.mcap.scene import Scene
-from glidercli.logio.mcap.topics import ChannelTopics, event_topics
+from glidercli.logio.mcap.contents import Contents
+from glidercli.logio.mcap.file import McapFile
 from glidercli.provenance import version
 
-__all__ = ["AT_THE_END", "FORMAT", "FORMATS", "McapLog", "statement", "write_mcap"]
+__all__ = ["AT_THE_END", "FORMAT", "FORMATS", "McapLog", "write_mcap"]
 
 FORMAT = "2"
 """Raised when a reader of the earlier layout would misread a file."""
@@ -30,8 +25,6 @@ FORMATS = ("1", FORMAT)
 """Layouts that can be read. In 1 a metadata record that came again replaced the one before it."""
 AT_THE_END = ", told at the end"
 """Ending of the name of a metadata record with what came to be known while the file was written."""
-PIECE = 65536
-"""Samples of a channel that are made into messages at once: at most 60 MB."""
 
 
 def write_mcap(log: Log, path: Path, attach: Sequence[Path] = ()) -> None:
@@ -56,30 +49,25 @@ class McapLog:
         self._told: dict[str, dict[str, str]] = {}
         self._provenance = False
         self._start_ns: int | None = None
-        self._topics: ChannelTopics | None = None
+        self._contents: Contents | None = None
 
     def add(self, log: Log) -> None:
         """Append a piece, or the whole; all have the same channels, and the first has samples of each that comes."""
         self._check(log)
-        if self._topics is None:
+        if self._contents is None:
             self._start_ns = log.start_ns if any(map(len, log.channels.values())) else None
             self._tell(log)
-            self._topics, self._scene = ChannelTopics(log), Scene(log)
-        for piece in log.pieces(PIECE):
-            with np.errstate(over="ignore", invalid="ignore"):  # absurd samples may overflow in degrees
-                self._file.add([*self._scene.topics(piece), *self._topics.tables(piece)])
+            self._contents = Contents(log)
+        for topics in self._contents.samples(log):
+            self._file.add(topics)
 
     def close(self, log: Log) -> None:
         """Finish the file. log : its last piece, with all events and the final metadata."""
         self._check(log)
-        log = dataclasses.replace(log, events=tuple(sorted(log.events, key=lambda event: event.time_ns)))
-        first = [event.time_ns for event in log.events[:1]]
-        start_ns = min([*first, *([] if self._start_ns is None else [self._start_ns])], default=0)
         self._tell(log)
-        with np.errstate(over="ignore", invalid="ignore"):
-            drawn: list[Topic] = self._scene.lines(log, start_ns)
-        lines = _log_lines(log, self._scene.remarks(), start_ns)
-        self._file.add([lines, *drawn, *event_topics(log.events)])
+        if self._contents is None:
+            self._contents = Contents(log)
+        self._file.add(self._contents.whole(log))
         self._file.finish()
 
     def _check(self, log: Log) -> None:
@@ -111,28 +99,3 @@ class McapLog:
                 later = {key: text for key, text in entries.items() if before.get(key) != text}
                 self._file.metadata(name + AT_THE_END, later)
         self._told = told
-
-
-def statement(log: Log) -> str:
-    """What the log is, plainly: SIMULATED, MEASURED, RECONSTRUCTION: text."""
-    text = log.metadata.get("reconstruction", "")
-    if log.origin == "reconstruction":
-        return f"RECONSTRUCTION: {text}" if text else "RECONSTRUCTION"
-    return f"{log.origin.upper()} FROM A RECONSTRUCTION: {text}" if text else log.origin.upper()
-
-
-def _log_lines(log: Log, remarks: Sequence[str], start_ns: int) -> Messages:
-    """The topic /log: first what the log is, then remarks, then the events."""
-    from foxglove_schemas_protobuf.Log_pb2 import Log as Line
-
-    lines = [(start_ns, statement(log), "glider")]
-    lines += [(start_ns, text, "scene") for text in remarks]
-    if "track_note" in log.metadata:
-        lines.append((start_ns, log.metadata["track_note"], "track"))
-    for event in log.events:
-        depth = "" if event.depth is None else f" at {event.depth:.1f} m"
-        lines.append((event.time_ns, event.name + depth, "event"))
-    messages = [
-        message(Line, timestamp=timestamp(at), level=Line.INFO, message=text, name=name) for at, text, name in lines
-    ]
-    return Messages("/log", np.array([at for at, _, _ in lines], np.int64), messages)

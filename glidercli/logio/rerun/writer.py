@@ -2,32 +2,22 @@
 
 from __future__ import annotations
 
-import dataclasses
 import errno
 import hashlib
 import json
 import os
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from glidercli.errors import OutputError
 from glidercli.log import Log
-from glidercli.logio.rerun.about import about
-from glidercli.logio.rerun.blueprint import blueprint
-from glidercli.logio.rerun.plots import Plots
-from glidercli.logio.rerun.scene import Scene
-from glidercli.logio.rerun.settling import Settled, columns, identified, row, settle
+from glidercli.logio.rerun.contents import Contents
+from glidercli.logio.rerun.settling import Settled, identified, settle
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
 __all__ = ["RerunLog", "write_rerun"]
-
-PIECE = 65536
-"""Samples of a channel that go into one chunk."""
 
 
 def write_rerun(log: Log, path: Path) -> None:
@@ -48,7 +38,7 @@ class RerunLog:
     def __init__(self, path: Path) -> None:
         self._path = path
         self._hash = hashlib.sha256()
-        self._first: Log | None = None
+        self._contents: Contents | None = None
         self._sent = 0
 
     def add(self, log: Log) -> None:
@@ -56,45 +46,40 @@ class RerunLog:
         self._digest(log)
         if not any(map(len, log.channels.values())):
             return
-        if self._first is None:
-            self._begin(log.sliced(None, None))  # without channels that are empty
-        for piece in log.pieces(PIECE):
-            self._send([*self._plots.values(piece), *self._scene.moving(piece)], self._key)
-        self._end_ns = log.end_ns
+        if self._contents is None:
+            self._contents = self._begin(log.sliced(None, None))  # without channels that are empty
+        for chunks in self._contents.samples(log):
+            self._send(chunks, self._key)
 
     def close(self, log: Log) -> None:
         """Finish the file. log : its last piece, with all events and the final metadata."""
-        if self._first is None:
+        if self._contents is None:
             raise OutputError(self._path, "not written: the log holds no sample")
         told = [log.origin, [*log.metadata.items()], [(e.name, e.time_ns, e.depth) for e in log.events]]
         self._hash.update(json.dumps(told).encode())
         key = self._hash.hexdigest()
-        whole = dataclasses.replace(log, channels=self._first.channels)
-        drawn = self._scene.still(log)
+        chunks, views = self._contents.whole(log)
         import rerun as rr
 
-        page = rr.TextDocument(about(whole, drawn.notes), media_type=rr.MediaType.MARKDOWN)
-        self._send([*self._header(log), *drawn.chunks, row("/about", page)], key)
-        views = blueprint(
-            whole, self._end_ns - self._first.start_ns, drawn.camera, self._scene.has_hull, drawn.has_plan
-        )
+        self._send(chunks, key)
         settled: Any = Settled(views, key)
         rr.send_blueprint(settled, recording=self._recording)
         self._flush()
         self._recording.disconnect()
         settle(self._path, self._key[:32], key)
 
-    def _begin(self, log: Log) -> None:
+    def _begin(self, log: Log) -> Contents:
         os.environ.setdefault("RUST_LOG", "off")  # faults are ours to tell
         import rerun as rr
 
         rr.set_strict_mode(True)
-        self._first, self._key = log, self._hash.hexdigest()
-        self._plots, self._scene = Plots(log), Scene(log)
+        self._key = self._hash.hexdigest()
+        contents = Contents(log)
         self._recording = rr.RecordingStream("glider", recording_id=self._key[:32], send_properties=False)
         self._recording.set_log_time_enabled(False)
         self._recording.save(self._path)
-        self._send([*self._plots.styles(), *self._scene.hull()], self._key)
+        self._send(contents.styles(), self._key)
+        return contents
 
     def _send(self, chunks: list[Chunk], key: str) -> None:
         """Write chunks; their ids come from the key."""
@@ -116,15 +101,3 @@ class RerunLog:
             if len(channel):
                 self._hash.update(f"{name} {channel.origin} {len(channel)} ".encode())
                 self._hash.update(channel.time_ns.tobytes() + channel.values.tobytes())
-
-    def _header(self, log: Log) -> Iterator[Chunk]:
-        """Name and start of the recording, and its events."""
-        import rerun as rr
-
-        start_ns = self._scene.zero_ns
-        name = f"{log.kind} {np.datetime64(start_ns // 10**9, 's')} UTC"
-        yield row("/__properties", rr.archetypes.RecordingInfo(start_time=start_ns, name=name))
-        if log.events:
-            texts = [e.name if e.depth is None else f"{e.name}, depth {e.depth:.1f} m" for e in log.events]
-            times = np.array([e.time_ns for e in log.events], dtype=np.int64)
-            yield columns("/events", start_ns, times, rr.TextLog.columns(text=texts, level=["INFO"] * len(texts)))
