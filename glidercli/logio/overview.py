@@ -16,12 +16,10 @@ from glidercli.logio.derived.closure import closures_in
 from glidercli.logio.reading import Reading
 from glidercli.logio.replaying import iso
 from glidercli.logio.report import FileReport
+from glidercli.residuals import usual_gap
 
 __all__ = ["Overview", "Sampling", "Yo", "overview"]
 
-MANY = 5.0
-"""Intervals between samples of so many times the usual one, and of more than a minute, are gaps."""
-LEAST_GAP = 60.0  # s
 USUAL = (
     "depth", "pitch", "roll", "heading", "latitude", "temperature", "salinity", "mass_position", "ballast_volume",
 )  # fmt: skip
@@ -33,7 +31,7 @@ INSTEAD = {"ballast_volume": ("net_buoyancy",), "salinity": ("conductivity", "ab
 class Sampling:
     """How a channel is sampled.
 
-    interval : usual time between samples, s (median), None of a single one. gaps : longer ones, see MANY.
+    interval : usual time between samples, s (median), None of a single one. gaps : longer ones, see usual_gap.
     longest : the longest time between samples, s, and after_ns : the sample before it.
     """
 
@@ -128,7 +126,7 @@ def _sampling(channel: Channel) -> Sampling:
         return Sampling(channel, None, 0, None, None)
     usual = float(np.median(steps))
     widest = int(steps.argmax())
-    gaps = int((steps > max(MANY * usual, LEAST_GAP)).sum())
+    gaps = int((steps > usual_gap(channel)).sum())
     return Sampling(channel, usual, gaps, float(steps[widest]), int(channel.time_ns[widest]))
 
 
