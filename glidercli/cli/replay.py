@@ -78,7 +78,8 @@ def replay(
     with progress("reading", "files", quiet) as bar:
         played = play(
             log, files, format=format, start=start, end=end, strict=strict, force=force, attach=attach,
-            beside=beside or (), cache=cache, columns=columns, workers=cores(), progress=bar.tell, stage=bar.stage, reading=reading,
+            beside=beside or (), cache=cache, columns=columns, workers=cores(), progress=bar.tell, stage=bar.stage,
+            reading=reading,
         )  # fmt: skip
     warn((f"{report.path}: {report.error}" for report in played.broken), quiet)
     for path in files:

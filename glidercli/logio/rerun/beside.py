@@ -48,11 +48,11 @@ class Beside:
         for number, one in enumerate(self._logs):
             colour = look.OVERLAID[number % len(look.OVERLAID)]
             place = f"/beside/{number}" if number else ""
-            label = _label(number, self._logs, names)
-            self._plots.append(Plots(one, self._zero_ns, place, colour, label))
+            label, short = _labels(number, self._logs, names)
+            self._plots.append(Plots(one, self._zero_ns, place, colour, short))
             self._scenes.append(Scene(one, self._zero_ns, f"/world{place}", colour, origin(log) if number else None))
             scene = self._scenes[-1]
-            self._sides.append(Side(one, label, place, colour, scene.vehicle, scene.has_hull))
+            self._sides.append(Side(one, label, short, place, colour, scene.vehicle, scene.has_hull))
 
     def styles(self) -> list[Chunk]:
         """How things are drawn, and the hulls."""
@@ -75,9 +75,9 @@ class Beside:
         notes.append("Elapsed counts from the first sample of all.")
         chunks = [header(log, self._zero_ns)]
         for side, scene in zip(self._sides, self._scenes, strict=True):
-            chunks += texts(side.log.events, self._zero_ns, f"{side.place}/events", f"{side.label}: ")
+            chunks += texts(side.log.events, self._zero_ns, f"{side.place}/events", f"{side.short}: ")
             chunks += scene.rail()
-            notes += [f"{side.label}: {note}" for note in (hull_notes(side.log) if side.has_hull else [])]
+            notes += [f"{side.short}: {note}" for note in (hull_notes(side.log) if side.has_hull else [])]
         sea = self._surroundings(chunks, notes)
         told = [scene.fixes(side.log) for side, scene in zip(self._sides, self._scenes, strict=True)]
         lines = [
@@ -120,13 +120,13 @@ class Beside:
         sides = self._sides[0], self._sides[number]
         reference, other = sides if reference_first(sides[0].log, sides[1].log) else sides[::-1]
         found = differences(reference.log, other.log)
-        pair = Pair(f"{other.label} less {reference.label}", f"/difference/{number}", sides[1].colour, found)
+        pair = Pair(f"{other.short} less {reference.short}", f"/difference/{number}", sides[1].colour, found)
         for one in found:
             chunks += self._drawn(one, pair)
         unlike = [one.name.replace("_", " ") for one in found if not one.same_zero]
         if found:
             notes.append(
-                f"Differences: {pair.title}, at the samples of {reference.label}; {other.label} is interpolated "
+                f"Differences: {pair.title}, at the samples of {reference.short}; {other.short} is interpolated "
                 "between its own samples, not across gaps of them. Angles are differences on the circle."
             )
         if unlike:
@@ -144,10 +144,12 @@ class Beside:
         return [row(entity, drawn), columns(entity, self._zero_ns, one.time_ns, values)]
 
 
-def _label(number: int, logs: Sequence[Log], names: Sequence[str]) -> str:
-    """What a log is called: its name and kind."""
+def _labels(number: int, logs: Sequence[Log], names: Sequence[str]) -> tuple[str, str]:
+    """What a log is called: its name and kind, and what of that is enough to tell it from the others."""
     kinds = [log.kind for log in logs]
-    if names:
-        return f"{' '.join(names[number].split())} ({kinds[number]})"
-    before = kinds[:number].count(kinds[number])
-    return kinds[number] if kinds.count(kinds[number]) == 1 else f"{kinds[number]} {before + 1}"
+    kind, alone = kinds[number], kinds.count(kinds[number]) == 1
+    if not names:
+        label = kind if alone else f"{kind} {kinds[: number + 1].count(kind)}"
+        return label, label
+    name = " ".join(names[number].split())
+    return f"{name} {kind}", kind if alone else f"{name} {logs[number].origin.upper()}"

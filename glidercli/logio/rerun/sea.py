@@ -201,4 +201,4 @@ def _camera(box: _Box, places: Array, exaggeration: float, aspect: float) -> Cam
         away = distance()
         seen = ((drawn - middle) @ axis) / ((drawn - middle) @ forward + away)
         middle = middle + axis * 0.5 * (seen.min() + seen.max()) * away
-    return middle + box.sight * distance() * 1.05, middle
+    return middle + box.sight * distance() * 1.1, middle

@@ -27,6 +27,8 @@ class Side(NamedTuple):
 
     log: Log
     label: str
+    short: str
+    """The shortest name that tells it from the others."""
     place: str
     colour: look.Colour
     vehicle: str
@@ -62,8 +64,9 @@ def side_by_side(
     import rerun.blueprint as rrb
 
     left: list[Any] = [] if sea is None else [_overview(sides, sea)]
+    abreast = sum(side.has_hull for side in sides)
     hulls = [
-        panels.hull_view(f"{side.label}: attitude", side.vehicle, hull_size(side.log)[0])
+        panels.hull_view(f"{side.label}: attitude", side.vehicle, hull_size(side.log)[0], abreast=abreast)
         for side in sides
         if side.has_hull
     ]
@@ -84,7 +87,7 @@ def side_by_side(
         tabs["Events"] = [rrb.TextLogView(origin="/", contents=contents, name="events")]
     tabs["About"] = [rrb.TextDocumentView(origin="/about", name="about this recording")]
     columns: list[Any] = [rrb.Vertical(*left, row_shares=[1.25, 1.0][: len(left)])] if left else []
-    columns += [rrb.Vertical(*flight)] if flight else []
+    columns += [rrb.Vertical(*flight, row_shares=[1.4, 1.0, 1.0, 1.0, 1.0][: len(flight)])] if flight else []
     columns.append(rrb.Tabs(*(rrb.Vertical(*views, name=tab) for tab, views in tabs.items() if views), active_tab=0))
     shares = [4.6] * bool(left) + [3.8] * bool(flight) + [4.1]
     whole = rrb.Horizontal(*columns, column_shares=shares)
@@ -106,7 +109,7 @@ def _overlaid(name: str, sides: Sequence[Side], legend: bool) -> Any:
     """A channel of all logs that have it."""
     contents = [f"{side.place}/{CHANNELS[name].group}/{name}" for side in sides if name in side.log]
     only = [side for side in sides if name in side.log]
-    words = panels.series_name(name) + (f", {only[0].label} only" if len(only) == 1 else "")
+    words = panels.series_name(name) + (f", {only[0].short} only" if len(only) == 1 else "")
     return panels.over_time(words, contents, legend)
 
 
@@ -122,7 +125,9 @@ def _differences(pairs: Sequence[Pair]) -> dict[str, list[Any]]:
         contents = [f"{pair.place}/{name}" for pair, _ in found[name]]
         rms = ", ".join(f"{one.rms:.3g}" for _, one in found[name])
         zero = "" if all(one.same_zero for _, one in found[name]) else ", other zeros"
-        title = f"{name.replace('_', ' ')} difference, {panels.unit_of(name)} (rms {rms}){zero}"
+        which = pairs[0].title if len(pairs) == 1 and place % MOST == 0 else "difference"
+        title = f"{name.replace('_', ' ')}: {which}, {panels.unit_of(name)} (rms {rms}){zero}"
         tab = "Differences" if place < MOST else f"Differences {place // MOST + 1}"
-        tabs.setdefault(tab, []).append(panels.over_time(title, contents, legend=place % MOST == 0))
+        legend = len(pairs) > 1 and place % MOST == 0
+        tabs.setdefault(tab, []).append(panels.over_time(title, contents, legend))
     return tabs
