@@ -139,7 +139,11 @@ class Beside:
         entity = f"{pair.place}/{one.name}"
         style: dict[str, Any] = {"names": pair.title, "colors": pair.colour}
         lines = pair.drawn_as_lines(one.name)
-        drawn = rr.SeriesLines(widths=1.5, **style) if lines else rr.SeriesPoints(marker_sizes=1.5, **style)
+        drawn = (
+            rr.SeriesLines(widths=1.5, **style)
+            if lines
+            else rr.SeriesPoints(marker_sizes=1.2, markers="circle", **style)
+        )
         values = rr.Scalars.columns(scalars=one.values)
         return [row(entity, drawn), columns(entity, self._zero_ns, one.time_ns, values)]
 

@@ -80,9 +80,9 @@ def _words_of(phases: Sequence[str]) -> str:
 def hull_title(log: Log) -> str:
     """Whose hull is drawn, and what moves in it."""
     own = hull_size(log)[2]
-    whose = f"{log.metadata.get('vehicle', 'its own')} hull" if own else "generic hull (not to scale)"
+    whose = f"{log.metadata.get('vehicle', 'its own')} hull" if own else "generic hull, not to scale"
     moves = any(name in log for name in ("mass_position", "mass_rotation"))
-    return f"{log.kind} attitude, {' '.join(whose.split())}{'; red: movable mass' if moves else ''}"
+    return f"{log.kind} attitude{'; red: mass' if moves else ''}; {' '.join(whose.split())}"
 
 
 def _overview(log: Log, shown: Shown, sea: Sea) -> Any:
@@ -120,6 +120,6 @@ def _section(section: Section) -> Any:
 def _key(section: Section) -> Any:
     import rerun.blueprint as rrb
 
-    bounds = rrb.VisualBounds2D(x_range=(-6.0, 74.0), y_range=(-34.0, TALL + 10.0))
+    bounds = rrb.VisualBounds2D(x_range=(-6.0, 80.0), y_range=(-34.0, TALL + 10.0))
     style = dict[str, Any](visual_bounds=bounds, background=look.BACKGROUND, titlebar=False)
     return rrb.Spatial2DView(origin=section.key, name=panels.unit_of(section.name), **style)

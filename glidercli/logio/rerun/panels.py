@@ -34,7 +34,7 @@ PLOTS: tuple[tuple[str, str, str, tuple[str, ...]], ...] = (
     ("CTD", "density", "kg/m3", ("density",)),
     ("CTD", "conductivity", "S/m", ("conductivity",)),
     ("CTD", "pressure", "dbar", ("pressure",)),
-    ("Current", "", "m/s", ("current_east", "current_north", "current_up")),
+    ("Current", "current:", "m/s", ("current_east", "current_north", "current_up")),
     ("Motion", "velocity through water in body axes:", "m/s", ("u", "v", "w")),
     ("Motion", "", "deg", ("angle_of_attack", "sideslip")),
     ("Motion", "turn rates about body axes:", "deg/s", ("p", "q", "r")),
@@ -73,22 +73,20 @@ def _word(channel: str) -> str:
     return WORDS.get(channel, channel.replace("_", " "))
 
 
-def with_unit(title: str, unit: str, names: Sequence[str], log: Log, colours: bool = True) -> str:
+def with_unit(title: str, unit: str, names: Sequence[str], log: Log) -> str:
     """Title of a plot: what is drawn, in which colour, derived or not, in which unit."""
-    derived = {name for name in names if name in log and log[name].origin == "derived" != log.origin}
-    if title and not title.endswith(":"):
-        words = title
-        mark = bool(derived)
-    else:
-        mark = len(derived) == len(names)
+    derived = [name for name in names if log[name].origin == "derived" != log.origin]
+    whole = len(derived) == len(names)
+    words = title
+    if not title or title.endswith(":"):
         each = []
         for name in names:
-            notes = [look.NAMES[COLOURS[name]]] * (colours and len(names) > 1) + ["derived"] * (
-                name in derived and not mark
-            )
-            each.append(_word(name) + (f" ({', '.join(notes)})" if notes else ""))
+            notes = [look.NAMES[COLOURS[name]]] if len(names) > 1 else []
+            notes += ["derived"] if name in derived and not whole else []
+            word = _word(name).removeprefix(title.replace(":", " "))
+            each.append(f"{word} ({', '.join(notes)})" if notes else word)
         words = f"{title} {', '.join(each)}".strip()
-    return f"{words}, {unit}" + (", derived" if mark else "")
+    return f"{words}, {unit}" + (", derived" if whole else "")
 
 
 def over_time(title: str, contents: Sequence[str], legend: bool = False) -> Any:

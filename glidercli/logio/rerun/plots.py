@@ -52,7 +52,7 @@ class Plots:
             if name == "phase":
                 yield row(entity, rr.StateConfiguration(values=PHASES, colors=[*look.PHASE_COLOURS.values()]))
             elif name == "heading":
-                yield row(entity, rr.SeriesPoints(marker_sizes=1.5, markers="circle", **style))
+                yield row(entity, rr.SeriesPoints(marker_sizes=1.2, markers="circle", **style))
             elif name == "depth" and self._by_phase:
                 del style["colors"]  # what stands still would hide what changes
                 yield row(entity, rr.SeriesLines(widths=2.0, **style))

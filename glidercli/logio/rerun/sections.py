@@ -146,7 +146,8 @@ def _key(section: Section, scale: str, low: float, high: float) -> list[Chunk]:
     digits = max(0, -int(np.floor(np.log10(step))))
     heights = TALL * (1.0 - (marks - low) / (high - low))
     labels = [*(f"{mark:.{digits}f}" for mark in marks), unit_of(section.name)]
-    places = [*((WIDE + 22.0, height) for height in heights), (WIDE / 2 + 14.0, -26.0)]
+    places = [(WIDE + 6.0 + 4.0 * len(word), height) for word, height in zip(labels, heights, strict=False)]
+    places.append((WIDE / 2 + 14.0, -26.0))
     style = dict[str, Any](show_labels=True, radii=rr.Radius.ui_points(0.1), colors=look.TEXT)
     ticks = rr.LineStrips2D(
         [[(WIDE, height), (WIDE + 5.0, height)] for height in heights],

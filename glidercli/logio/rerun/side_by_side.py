@@ -36,8 +36,8 @@ class Side(NamedTuple):
 
     @property
     def legend(self) -> str:
-        """Which it is, and its colour."""
-        return f"{self.label} {look.NAMES[self.colour]}"
+        """Its colour, and which it is."""
+        return f"{look.NAMES[self.colour]}: {self.short}"
 
 
 class Pair(NamedTuple):
