@@ -122,11 +122,11 @@ def _sight(places: Array, extent: float) -> Array:
     """From the middle towards the eye: across a long track, from its southern side, from above; else from the SSW."""
     level = places[:, :2] - places[:, :2].mean(axis=0)
     spread, axes = np.linalg.eigh(level.T @ level)
-    direction = np.array([-0.85, -0.53])
+    direction = np.array([-0.88, -0.475])
     if spread[0] < 0.3 * spread[1]:
         along = axes[:, 1] if axes[1, 1] > 0 else -axes[:, 1]  # eastward
         across = np.array([-abs(along[1]), np.sign(along[1] or 1.0) * along[0]])  # southward
-        direction = 0.85 * across - 0.53 * along
+        direction = 0.88 * across - 0.475 * along
     direction /= np.linalg.norm(direction)
     steep = 0.45 if extent > 0.3 * float(np.ptp(places[:, 2])) else 0.3
     sight = np.array([*((1.0 - steep**2) ** 0.5 * direction), -steep])
