@@ -140,6 +140,14 @@ class Log:
         )  # fmt: skip
         return dataclasses.replace(self, channels={n: c for n, c in parts.items() if len(c)}, events=events)
 
+    def shifted(self, by_ns: int) -> Log:
+        """This log with by_ns, ns, added to every time."""
+        if by_ns == 0:
+            return self
+        channels = {name: dataclasses.replace(c, time_ns=c.time_ns + by_ns) for name, c in self.channels.items()}
+        events = tuple(dataclasses.replace(event, time_ns=event.time_ns + by_ns) for event in self.events)
+        return dataclasses.replace(self, channels=channels, events=events)
+
     def pieces(self, samples: int) -> Iterator[Log]:
         """The log cut in time, each piece with at most so many samples of any channel; all have the same channels."""
         times = [channel.time_ns for channel in self.channels.values()]

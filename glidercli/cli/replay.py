@@ -27,6 +27,10 @@ def replay(
     end: Annotated[str | None, typer.Option(metavar="T", help="To, not included: ISO 8601 UTC, or s.")] = None,
     strict: Annotated[bool, typer.Option("--strict", help="A file that cannot be read is a failure.")] = False,
     attach: Annotated[bool, typer.Option("--attach", help="Put the files that were read into the .mcap.")] = False,
+    beside: Annotated[
+        list[str] | None,
+        typer.Option("--with", metavar="LOG", help="Show it beside, in the .rrd, with differences; may repeat."),
+    ] = None,
     spawn: Annotated[bool, typer.Option("--spawn", help="Open the Rerun viewer.")] = False,
     serve: Annotated[
         bool, typer.Option("--serve", help="Serve the Rerun web viewer on 127.0.0.1 until Ctrl-C.")
@@ -73,8 +77,9 @@ def replay(
             raise InputError(" ".join(log), "held no whole record while it was followed; nothing was written")
     with progress("reading", "files", quiet) as bar:
         played = play(
-            log, files, format=format, start=start, end=end, strict=strict, force=force, attach=attach, cache=cache,
-            columns=columns, workers=cores(), progress=bar.tell, stage=bar.stage, reading=reading,
+            log, files, format=format, start=start, end=end, strict=strict, force=force, attach=attach,
+            beside=beside or (), cache=cache, columns=columns, workers=cores(), progress=bar.tell, stage=bar.stage,
+            reading=reading,
         )  # fmt: skip
     warn((f"{report.path}: {report.error}" for report in played.broken), quiet)
     for path in files:

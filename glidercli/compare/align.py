@@ -74,12 +74,7 @@ def align(
 
 def shifted(log: Log, shift: float) -> Log:
     """The log with ``shift``, s, added to every time, rounded to 1 ns."""
-    by = round(shift / NANOSECOND)
-    if by == 0:
-        return log
-    channels = {name: dataclasses.replace(c, time_ns=c.time_ns + by) for name, c in log.channels.items()}
-    events = tuple(dataclasses.replace(event, time_ns=event.time_ns + by) for event in log.events)
-    return dataclasses.replace(log, channels=channels, events=events)
+    return log.shifted(round(shift / NANOSECOND))
 
 
 def _lag(measured: Channel, simulated: Channel, max_gap: float) -> float:

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from glidercli.compare.errors import table_values
 from glidercli.compare.facts import FLIGHT, Fact
 from glidercli.dives import Interval, phases
 from glidercli.log import Log
+from glidercli.residuals import table_values
 from glidercli.units import NANOSECOND
 
 if TYPE_CHECKING:

@@ -11,13 +11,14 @@ import numpy as np
 
 from glidercli.channels import CHANNELS, by_column
 from glidercli.compare.align import Alignment, Method, align, shifted
-from glidercli.compare.errors import Errors, Residuals, residuals, statistics
+from glidercli.compare.errors import Errors, statistics
 from glidercli.compare.events import EventPair, events_of, paired
 from glidercli.compare.facts import Facts
 from glidercli.compare.verdicts import FactVerdict, judged
 from glidercli.dives import LEGS, Interval, mask, phases
 from glidercli.errors import InputError
 from glidercli.log import Log
+from glidercli.residuals import Residuals, residuals
 
 __all__ = ["Comparison", "Run", "Side", "compare", "matching"]
 

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from glidercli import pictures
 from glidercli.channels import CHANNELS
 from glidercli.compare.bands import BAND, draw_facts
-from glidercli.compare.errors import on_circle, table_values
 from glidercli.compare.facts import Facts
 from glidercli.errors import InputError
 from glidercli.log import Channel, Log
+from glidercli.residuals import on_circle, table_values
 from glidercli.units import HOUR, NANOSECOND
 
 if TYPE_CHECKING:

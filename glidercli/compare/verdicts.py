@@ -8,10 +8,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.compare.errors import on_circle, table_values
 from glidercli.compare.facts import FLIGHT, Fact, Facts
 from glidercli.dives import Interval, phases
 from glidercli.log import Log
+from glidercli.residuals import on_circle, table_values
 from glidercli.units import NANOSECOND
 
 __all__ = ["FactVerdict", "Verdict", "judged", "quantity"]

@@ -1,4 +1,4 @@
-"""What of a Log's metadata can a viewer draw? Numbers, the size of the hull, and where in it the movable mass is."""
+"""What of a Log's metadata can a viewer draw? Numbers, the hull's size, where its mass is, where it was, the bottom."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 from glidercli.log import Log
 
-__all__ = ["drawn_eccentricity", "hull_size", "mass_notes", "number", "slide_zero"]
+__all__ = ["bottom", "drawn_eccentricity", "hull_size", "mass_notes", "number", "origin", "slide_zero"]
 
 STAND_IN = (2.0, 0.22)  # m, length and diameter of a usual glider
 
@@ -58,3 +58,17 @@ def mass_notes(log: Log) -> list[str]:
 
 def _zero_known(log: Log) -> bool:
     return "mass_position_zero" not in log.metadata and number(log, "movable_nominal_position_m") is not None
+
+
+def origin(log: Log) -> tuple[float, float] | None:
+    """Latitude and longitude, deg, of what north and east are counted from; None where they are unknown."""
+    latitude, longitude = number(log, "origin_latitude_deg"), number(log, "origin_longitude_deg")
+    if latitude is None or longitude is None or not abs(latitude) <= 90.0 or not abs(longitude) <= 360.0:
+        return None
+    return latitude, longitude
+
+
+def bottom(log: Log) -> float | None:
+    """Depth of the bottom, m, where the log tells it."""
+    depth = number(log, "bottom_depth_m")
+    return depth if depth is not None and depth > 0.0 else None

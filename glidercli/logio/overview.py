@@ -10,17 +10,16 @@ from typing import Any
 import numpy as np
 
 from glidercli.channels import CHANNELS
-from glidercli.dives import LEAST_GAP, MANY, cuts, long_gaps, phases
+from glidercli.dives import LEAST_GAP, cuts, long_gaps, phases
 from glidercli.log import Channel, Log
 from glidercli.logio.derived.closure import closures_in
 from glidercli.logio.reading import Reading
 from glidercli.logio.report import FileReport
+from glidercli.residuals import usual_gap
 from glidercli.utc import iso
 
 __all__ = ["Overview", "Sampling", "Yo", "overview"]
 
-MINUTE = 60.0
-"""s; intervals between samples of more, and of more than MANY times the usual one, are gaps of a channel."""
 FAR = 86400 * 10**9
 """ns; files further apart than this may not belong together."""
 FEW = 5
@@ -36,7 +35,7 @@ INSTEAD = {"ballast_volume": ("net_buoyancy",), "salinity": ("conductivity", "ab
 class Sampling:
     """How a channel is sampled.
 
-    interval : usual time between samples, s (median), None of a single one. gaps : longer ones, see MINUTE.
+    interval : usual time between samples, s (median), None of a single one. gaps : longer ones, see usual_gap.
     longest : the longest time between samples, s, and after_ns : the sample before it.
     """
 
@@ -141,7 +140,7 @@ def _sampling(channel: Channel) -> Sampling:
         return Sampling(channel, None, 0, None, None)
     usual = float(np.median(steps))
     widest = int(steps.argmax())
-    gaps = int((steps > max(MANY * usual, MINUTE)).sum())
+    gaps = int((steps > usual_gap(channel)).sum())
     return Sampling(channel, usual, gaps, float(steps[widest]), int(channel.time_ns[widest]))
 
 

@@ -14,6 +14,7 @@ from glidercli.log import Channel, Log
 from glidercli.logio.reading import Reading, read
 from glidercli.logio.records import NO_TIME, to_ns
 from glidercli.logio.report import FileReport
+from glidercli.logio.rerun.clocks import aligned
 from glidercli.logio.writing import SUFFIXES, write
 from glidercli.provenance import provenance_json
 from glidercli.utc import iso
@@ -70,6 +71,7 @@ def replay(
     strict: bool = False,
     force: bool = False,
     attach: bool = False,
+    beside: Sequence[str | Path] = (),
     cache: str | Path | None = None,
     columns: str | Path | None = None,
     workers: int = 1,
@@ -85,6 +87,8 @@ def replay(
     format, cache, columns, workers : as for ``read``.
     start, end : ISO 8601 UTC, or seconds since the log's first sample; the part with start <= time < end is taken.
     attach : whether the files that were read go into every .mcap; a UsageError where there is none.
+    beside : other logs, a file, folder or glob each, that every .rrd shows beside this one; a UsageError where there is
+        none. They are put on this log's clock, see rerun/clocks.py, and cut with it by start and end.
     strict : a file that cannot be read, or not as a whole, is an InputError, and nothing is written.
     progress : is told the files read and the files to read. stage : is told what is done after that.
     reading : what the paths gave, where they have been read.
@@ -92,29 +96,48 @@ def replay(
     targets = [Path(path) for path in outputs]
     if attach and not any(target.suffix.lower() == ".mcap" for target in targets):
         raise UsageError("--attach puts the files into an .mcap; -o NAME.mcap is needed")
+    if beside and not any(target.suffix.lower() == ".rrd" for target in targets):
+        raise UsageError("--with shows logs side by side in Rerun; -o NAME.rrd is needed")
     check_outputs(targets, SUFFIXES, force)
     if reading is None:
         reading = read(paths, format, progress, cache=cache, columns=columns, workers=workers)
     log = reading.log
-    broken = [report for report in reading.files if report.error is not None]
+    others = [read([path], cache=cache, columns=columns, workers=workers) for path in beside]
+    files = [report for one in (reading, *others) for report in one.files]
+    broken = [report for report in files if report.error is not None]
     if strict and broken:
         more = f", and {len(broken) - 1} more files" if len(broken) > 1 else ""
         raise InputError(broken[0].path, f"{broken[0].error} (--strict){more}")
+    together = [aligned(log, other.log) for other in others]
     if start is not None or end is not None:
-        log = log.sliced(_moment(log, "--start", start), _moment(log, "--end", end))
+        span = _moment(log, "--start", start), _moment(log, "--end", end)
+        log, *together = (one.sliced(*span) for one in (log, *together))
         if not log.channels:
             raise InputError(
                 "--start, --end",
                 f"no sample lies there; the log runs {iso(reading.log.start_ns)} to {iso(reading.log.end_ns)}",
             )
+        for path, other in zip(beside, together, strict=True):
+            if not other.channels:
+                raise InputError(path, "no sample lies between --start and --end")
     mappings = [] if columns is None else [Path(columns)]
-    check_not_inputs(targets, [*(report.path for report in reading.files), *reading.inputs, *mappings])
-    inputs = dict.fromkeys([*reading.inputs, *mappings])
-    log = log.with_metadata(provenance=provenance_json(inputs=inputs, origin=log.origin))
+    sources = [list(dict.fromkeys([*one.inputs, *mappings])) for one in (reading, *others)]
+    check_not_inputs(targets, [*(report.path for report in files), *(path for one in sources for path in one)])
+    log, *together = (
+        one.with_metadata(provenance=provenance_json(inputs=inputs, origin=one.origin))
+        for one, inputs in zip((log, *together), sources, strict=True)
+    )
     if stage is not None and targets:
         stage("writing")
-    write(log, *targets, force=force, attach=list(inputs) if attach else ())
-    return Replay(log, reading.files, tuple(targets))
+    more = f" and {len(paths) - 1} more" if len(paths) > 1 else ""
+    names = [_name(paths[0]) + more, *map(_name, beside)] if beside else []
+    write(log, *targets, force=force, attach=sources[0] if attach else (), beside=together, names=names)
+    return Replay(log, tuple(files), tuple(targets))
+
+
+def _name(path: str | Path) -> str:
+    """What a log is called beside others."""
+    return Path(path).name or str(path)
 
 
 def _moment(log: Log, option: str, text: str | None) -> int | None:

@@ -28,14 +28,22 @@ SUFFIXES = (".mcap", ".rrd", *TABLES)
 """Endings that can be written."""
 
 
-def write(log: Log, *paths: str | Path, force: bool = False, attach: Sequence[Path] = ()) -> None:
+def write(
+    log: Log,
+    *paths: str | Path,
+    force: bool = False,
+    attach: Sequence[Path] = (),
+    beside: Sequence[Log] = (),
+    names: Sequence[str] = (),
+) -> None:
     """Save a log; the ending picks the writer: .mcap (Foxglove, Lichtblick), .rrd (Rerun), .nc (CF), .parquet, .csv.
 
     All paths appear, or none. A log without provenance gets that of this process.
 
     force : replace files that exist; without it that is an OutputError. attach : files that go into every .mcap.
+    beside, names : other logs that every .rrd shows beside this one, and what each is called, see ``write_rerun``.
     """
-    with saving([Path(path) for path in paths], force, attach) as outputs:
+    with saving([Path(path) for path in paths], force, attach, beside, names) as outputs:
         outputs.add(log)
         outputs.close(log)
 
@@ -44,14 +52,19 @@ class Saving:
     """Outputs in the making, under other names; see ``saving``."""
 
     def __init__(
-        self, parts: Sequence[tuple[str, Path, Path | None]], pending: contextlib.ExitStack, attach: Sequence[Path]
+        self,
+        parts: Sequence[tuple[str, Path, Path | None]],
+        pending: contextlib.ExitStack,
+        attach: Sequence[Path],
+        beside: Sequence[Log] = (),
+        names: Sequence[str] = (),
     ) -> None:
-        """Begin. parts : ending, file to write to, file of the metadata beside a CSV. attach : as for ``saving``."""
+        """Begin. parts : ending, file to write to, file of the metadata beside a CSV. Others : as for ``saving``."""
         self._viewers: list[Any] = []
         self._tables: list[tuple[Any, Path, Path | None]] = []
         self._span: tuple[int, int] | None = None
         self._origins: dict[str, Any] = {}
-        for suffix, part, beside in parts:
+        for suffix, part, metadata in parts:
             if suffix == ".csv":
                 table: Any = CsvTable(pending.enter_context(part.open("w", encoding="utf-8", newline="")))
             elif suffix == ".parquet":
@@ -70,9 +83,9 @@ class Saving:
             else:
                 from glidercli.logio.rerun.writer import RerunLog
 
-                self._viewers.append(RerunLog(part))
+                self._viewers.append(RerunLog(part, beside, names))
                 continue
-            self._tables.append((table, part, beside))
+            self._tables.append((table, part, metadata))
 
     def add(self, log: Log) -> None:
         """Append a piece of the log, or all of it, to every output."""
@@ -92,19 +105,25 @@ class Saving:
         if "provenance" not in log.metadata:
             log = log.with_metadata(provenance=provenance_json(origin=log.origin))
         told = metadata_of(dataclasses.replace(log, channels=self._origins), self._span)
-        for table, part, beside in self._tables:
+        for table, part, metadata in self._tables:
             table.close(told)
-            if beside is not None:
-                write_metadata(told, beside, part)
+            if metadata is not None:
+                write_metadata(told, metadata, part)
         for viewer in self._viewers:
             viewer.close(log)
 
 
 @contextlib.contextmanager
-def saving(paths: Sequence[Path], force: bool, attach: Sequence[Path] = ()) -> Iterator[Saving]:
+def saving(
+    paths: Sequence[Path],
+    force: bool,
+    attach: Sequence[Path] = (),
+    beside: Sequence[Log] = (),
+    names: Sequence[str] = (),
+) -> Iterator[Saving]:
     """Outputs that get a log with ``add``, in pieces or whole, and then ``close``; all appear at the end, or none.
 
-    attach : files that go into every .mcap.
+    attach : files that go into every .mcap. beside, names : as for ``write``; the log is then added as a whole.
     """
     with contextlib.ExitStack() as pending:
         parts = []
@@ -115,7 +134,7 @@ def saving(paths: Sequence[Path], force: bool, attach: Sequence[Path] = ()) -> I
                     target, f"unknown output {target.suffix or 'without ending'}; allowed: {' '.join(SUFFIXES)}"
                 )
             part = pending.enter_context(atomic(target, force))
-            beside = pending.enter_context(atomic(metadata_path(target), force)) if suffix == ".csv" else None
-            parts.append((suffix, part, beside))
+            metadata = pending.enter_context(atomic(metadata_path(target), force)) if suffix == ".csv" else None
+            parts.append((suffix, part, metadata))
         with contextlib.ExitStack() as streams:
-            yield Saving(parts, streams, attach)
+            yield Saving(parts, streams, attach, beside, names)

@@ -292,6 +292,8 @@ def _metadata(plan: Mission | None, craft: Vehicle, equations: str, how: str, re
         "movable_eccentricity_m": repr(craft.mass.movable_eccentricity),
         "movable_nominal_position_m": repr(craft.actuators.mass_position.nominal),
     }
+    if plan and plan.bottom_m is not None:
+        told["bottom_depth_m"] = repr(plan.bottom_m)
     if plan and plan.reconstruction:
         told["reconstruction"] = plan.reconstruction
     elif remade:

@@ -148,3 +148,22 @@ def test_attach_puts_the_raw_files_into_the_mcap(glider: Run, tmp_path: Path) ->
     assert (done.returncode, len(done.stderr.splitlines())) == (2, 1)
     assert "--attach" in done.stderr
     assert not (tmp_path / "a.csv").exists()
+
+
+def test_with_puts_logs_side_by_side_in_rerun(glider: Run, glider_json: Callable[..., Any], tmp_path: Path) -> None:
+    from rerun.chunk import RrdReader
+
+    controls = ("--net-buoyancy", "0.3", "--mass-position", "0.42", "--mass-rotation", "30", "--duration", "600")
+    assert glider("simulate", *controls, "-o", "one.csv", "--quiet").returncode == 0
+    told = glider_json("replay", LOGS, "--with", "one.csv", "--with", LOGS, "-o", "two.rrd")
+    assert [Path(entry["path"]).name for entry in told["files"]].count("one.csv") == 1
+    entities = {chunk.entity_path for chunk in RrdReader(tmp_path / "two.rrd").stream().to_chunks()}
+    assert {"/navigation/depth", "/beside/1/navigation/depth", "/beside/2/navigation/depth"} <= entities
+    assert {"/difference/1/depth", "/difference/2/depth"} <= entities
+    for outputs in (["-o", "two.csv"], []):
+        done = glider("replay", LOGS, "--with", "one.csv", *outputs)
+        assert (done.returncode, len(done.stderr.splitlines())) == (2, 1)
+        assert "--with" in done.stderr
+    assert not (tmp_path / "two.csv").exists()
+    one_line_error(glider("replay", LOGS, "--with", "gone.csv", "-o", "a.rrd"), "gone.csv")
+    one_line_error(glider("replay", LOGS, "--with", "two.rrd", "-o", "two.rrd", "--force"), "two.rrd")

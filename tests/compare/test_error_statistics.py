@@ -8,8 +8,9 @@ from analytic_flights import channel, ns
 from hypothesis import given
 from hypothesis import strategies as st
 
-from glidercli.compare.errors import residuals, statistics
+from glidercli.compare.errors import statistics
 from glidercli.errors import InputError
+from glidercli.residuals import residuals
 
 T = np.arange(0.0, 1000.0, 7.0)
 ROUNDING = 1e-9  # values below 1e3 through one unit conversion and one interpolation

@@ -1,31 +1,17 @@
 """Does a Rerun recording hold just what the Log holds, the same bytes each time, and only panels with data?"""
 
 import dataclasses
-import os
-import subprocess
-import sys
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
+from rrd_files import START, channel, log_of, page, panels, rows, sights, told_by_the_verifier, written
 
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import OutputError
-from glidercli.log import Channel, Event, Log
+from glidercli.log import Event, Log
 from glidercli.logio.rerun.settling import _xxh32
 from glidercli.logio.rerun.writer import write_rerun
-
-START = 1_315_000_000_123_456_789
-
-
-def channel(name: str, seconds: Any, values: Any, origin: Any = "simulated") -> Channel:
-    time_ns = START + np.round(np.asarray(seconds, dtype=float) * 1e9).astype(np.int64)
-    return Channel(name, time_ns, np.broadcast_to(np.asarray(values, dtype=float), time_ns.shape), origin)
-
-
-def log_of(channels: list[Channel], origin: Any, metadata: dict[str, str], events: tuple[Event, ...] = ()) -> Log:
-    return Log({c.name: c for c in channels}, origin, metadata, events)
 
 
 @pytest.fixture
@@ -70,61 +56,10 @@ def depth_only() -> Log:
     return log_of([channel("depth", [0.0, 10.0, 20.0], [0.0, 5.0, 9.0])], "reconstruction", {})
 
 
-def written(log: Log, folder: Path, name: str = "log.rrd") -> Path:
-    write_rerun(log, folder / name)
-    return folder / name
-
-
-def stored(path: Path, blueprint: bool = False) -> list[tuple[str, Any]]:
-    """Entity and record batch of each chunk of the recording or of its blueprint, by the library's own reader."""
-    from rerun.chunk import RrdReader
-
-    reader = RrdReader(path)
-    chunks = reader.stream(store=reader.blueprints()[0] if blueprint else None).to_chunks()
-    return [(chunk.entity_path, chunk.to_record_batch()) for chunk in chunks]
-
-
-def rows(path: Path, entity: str, component: str) -> tuple[Any, Any, list[Any]]:
-    """Times in both timelines (None where static) and values of one component."""
-    for place, batch in stored(path):
-        if place == entity and component in batch.schema.names:
-            known = {name: batch.column(name) for name in ("utc", "elapsed") if name in batch.schema.names}
-            times = {name: column.to_numpy(zero_copy_only=False).astype(np.int64) for name, column in known.items()}
-            return times.get("utc"), times.get("elapsed"), batch.column(component).to_pylist()
-    raise KeyError(f"{entity} {component}")
-
-
-def panels(path: Path) -> set[str]:
-    """Names of the views in the file's blueprint."""
-    name = "ViewBlueprint:display_name"
-    return {b.column(name).to_pylist()[0][0] for _, b in stored(path, blueprint=True) if name in b.schema.names}
-
-
-def sights(path: Path) -> list[Any]:
-    """From the eye of each three-dimensional view in the file's blueprint to the point that it looks at."""
-    ends = ("EyeControls3D:look_target", "EyeControls3D:position")
-    views = [batch for _, batch in stored(path, blueprint=True) if ends[1] in batch.schema.names]
-    return [np.subtract(*(batch.column(name).to_pylist()[0][0] for name in ends)) for batch in views]
-
-
-def page(path: Path) -> str:
-    return str(rows(path, "/about", "TextDocument:text")[2][0][0])
-
-
 @pytest.mark.parametrize("name", ["spiral", "field", "depth_only"])
 def test_verifier_of_the_viewer_accepts_the_file(name: str, request: pytest.FixtureRequest, tmp_path: Path) -> None:
     path = written(request.getfixturevalue(name), tmp_path)
-    # A home without settings but with analytics off: nothing is sent, nothing of the user's is read.
-    settings = tmp_path / "config" / "rerun" / "analytics.json"
-    settings.parent.mkdir(parents=True)
-    settings.write_text('{"analytics_enabled": false, "analytics_id": "", "metadata": {}}')
-    home = {"HOME": str(tmp_path), "XDG_CONFIG_HOME": str(tmp_path / "config"), "XDG_DATA_HOME": str(tmp_path)}
-    program = Path(sys.executable).with_name("rerun")
-    done = subprocess.run(
-        [program, "rrd", "verify", path], env={**os.environ, **home}, capture_output=True, text=True, timeout=60
-    )
-    assert done.returncode == 0, done.stderr
-    assert "without error" in done.stdout + done.stderr
+    assert "without error" in told_by_the_verifier(path, tmp_path)
 
 
 @pytest.mark.parametrize("name", ["spiral", "field", "depth_only"])
@@ -154,7 +89,7 @@ def test_vehicle_moves_along_the_track_nose_down_in_a_dive(spiral: Log, tmp_path
     _, _, places = rows(path, "/world/vehicle", "Transform3D:translation")
     track = np.stack([spiral[name].values for name in ("north", "east", "down")], axis=-1)
     np.testing.assert_allclose(np.squeeze(places), track, atol=1e-4)  # float32 of 800 m: 6e-5
-    _, _, turns = rows(path, "/world/vehicle/body", "Transform3D:quaternion")
+    _, _, turns = rows(path, "/world/vehicle/course/body", "Transform3D:quaternion")
     x, y, z, w = turns[0][0]
     nose_down = 2.0 * (x * z - w * y)  # third row, first column of R_ned_body = -sin(pitch)
     assert nose_down == pytest.approx(np.sin(np.radians(25.0)), abs=1e-6)  # float32
@@ -162,30 +97,30 @@ def test_vehicle_moves_along_the_track_nose_down_in_a_dive(spiral: Log, tmp_path
 
 def test_mass_turns_to_port_for_positive_rotation(spiral: Log, tmp_path: Path) -> None:
     path = written(spiral, tmp_path)
-    _, _, slides = rows(path, "/world/vehicle/body/slide", "Transform3D:translation")
+    _, _, slides = rows(path, "/world/vehicle/course/body/slide", "Transform3D:translation")
     np.testing.assert_allclose(np.squeeze(slides)[:, 0], spiral["mass_position"].values, atol=1e-6)  # float32
-    _, _, turns = rows(path, "/world/vehicle/body/slide/turn", "Transform3D:quaternion")
+    _, _, turns = rows(path, "/world/vehicle/course/body/slide/turn", "Transform3D:quaternion")
     x, y, z, w = turns[0][0]
     # R (0, 0, Rr) = (0, -Rr sin gamma, Rr cos gamma) for gamma = 45 deg; float32
     assert (2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)) == pytest.approx((-(0.5**0.5), 0.5**0.5), abs=1e-6)
 
 
 def test_attitude_stands_only_where_all_three_angles_do(field: Log, tmp_path: Path) -> None:
-    utc, _, _ = rows(written(field, tmp_path), "/world/vehicle/body", "Transform3D:quaternion")
+    utc, _, _ = rows(written(field, tmp_path), "/world/vehicle/course/body", "Transform3D:quaternion")
     np.testing.assert_array_equal(utc, field["pitch"].time_ns)
 
 
 @pytest.mark.parametrize("told", [{"mass_position_zero": "LinPos"}, {"movable_nominal_position_m": "unknown"}])
 def test_mass_with_an_unknown_zero_is_drawn_about_its_middle(spiral: Log, told: dict[str, str], tmp_path: Path) -> None:
     path = written(spiral.with_metadata(**told), tmp_path)
-    _, _, slides = rows(path, "/world/vehicle/body/slide", "Transform3D:translation")
+    _, _, slides = rows(path, "/world/vehicle/course/body/slide", "Transform3D:translation")
     forward = np.squeeze(slides)[:, 0]
     assert (forward.min(), forward.max()) == pytest.approx((-0.03, 0.03), abs=1e-6)  # float32
     assert "about the middle of its range" in page(path)
 
 
 def test_mass_is_said_to_be_exaggerated_only_by_what_the_log_tells(spiral: Log, tmp_path: Path) -> None:
-    assert "0.070 m for a true 0.014 m" in page(written(spiral, tmp_path))
+    assert "0.055 m for a true 0.014 m" in page(written(spiral, tmp_path))
     other = dataclasses.replace(spiral, metadata={})
     assert "drawn not to scale: it is unknown" in page(written(other, tmp_path))
 
@@ -222,20 +157,28 @@ def test_another_log_is_another_recording(depth_only: Log, tmp_path: Path) -> No
 def test_panels_without_data_are_left_out(spiral: Log, field: Log, depth_only: Log, tmp_path: Path) -> None:
     assert panels(written(depth_only, tmp_path)) == {"depth, m (negative down)", "about this recording"}
     assert panels(written(field, tmp_path)) == {
-        "MEASURED: camera on the hull (not to scale)", "depth, m (negative down)", "attitude, deg",
-        "heading, deg clockwise from north", "temperature, degC", "conductivity, S/m",
-        "MEASURED: from above, north up, m", "latitude, deg", "longitude, deg", "about this recording",
+        "MEASURED attitude; generic hull, not to scale", "depth, m (negative down)", "pitch (blue), roll (orange), deg",
+        "heading, deg clockwise from true north", "temperature, degC", "conductivity, S/m",  # constant: no section
+        "latitude, deg", "longitude, deg",
+        "track and fixes; the map itself comes from the network", "about this recording",
     }  # fmt: skip
     shown = panels(written(spiral, tmp_path))
-    assert {"SIMULATED: track, north-east-down, m", "SIMULATED: camera on the hull", "flight phase", "events"} <= shown
-    assert "speed through water, m/s" in shown  # alone in its panel, so it is named
+    assert {
+        "SIMULATED track, grid 50 m, arrows: current",
+        "SIMULATED attitude; red: mass; its own hull",
+        "events",
+    } <= shown
+    assert "depth, m: dive blue, climb orange" in shown
+    assert "speed in water, m/s" in shown  # alone in its panel
+    assert not any("network" in name for name in shown)  # nobody knows where on the globe it was
 
 
 def test_derived_track_is_not_shown_as_measured(spiral: Log, tmp_path: Path) -> None:
     track = [dataclasses.replace(spiral[name], origin="derived") for name in ("north", "east", "down")]
     log = dataclasses.replace(spiral.with_channels(*track), origin="measured")
     shown = panels(written(log, tmp_path))
-    assert {"DERIVED: track, north-east-down, m", "MEASURED: camera on the hull"} <= shown
+    assert {"DERIVED track, grid 50 m, arrows: current", "MEASURED attitude; red: mass; its own hull"} <= shown
+    assert "north (blue), east (orange), down (green), m from the origin, derived" in shown
 
 
 @pytest.mark.parametrize("name", ["spiral", "field", "depth_only"])

@@ -9,8 +9,9 @@ from typing import Any
 
 from glidercli.channels import CHANNELS
 from glidercli.log import Log
+from glidercli.logio.rerun.clocks import CLOCK_NOTE
 
-__all__ = ["about"]
+__all__ = ["about", "about_several"]
 
 ORIGINS = {
     "simulated": "Computed by a model. Nothing here was measured.",
@@ -22,7 +23,23 @@ ORIGINS = {
 
 def about(log: Log, notes: Sequence[str]) -> str:
     """The page, Markdown: where the values come from, how they are drawn, metadata, provenance."""
-    lines = [f"# {log.kind}", "", ORIGINS[log.origin], ""]
+    return "\n".join(_page(log, log.kind, notes)) + "\n"
+
+
+def about_several(sides: Sequence[tuple[str, str, Log]], notes: Sequence[str]) -> str:
+    """The page of logs side by side. sides : label, name of the colour, log."""
+    lines = [f"# {' beside '.join(_plain(label) for label, _, _ in sides)}", ""]
+    for label, colour, log in sides:
+        clock = log.metadata.get(CLOCK_NOTE)
+        lines.append(f"- **{colour}**: {_plain(label)}" + (f". Its clock is {_plain(clock)}." if clock else ""))
+    lines += ["", "## How it is drawn", "", *(f"- {_plain(note)}" for note in notes)]
+    for label, _, log in sides:
+        lines += ["", *_page(log, _plain(label), ())]
+    return "\n".join(lines) + "\n"
+
+
+def _page(log: Log, title: str, notes: Sequence[str]) -> list[str]:
+    lines = [f"# {title}", "", ORIGINS[log.origin], ""]
     told = {key: value for key, value in log.metadata.items() if key != "provenance"}
     if remade := told.pop("reconstruction", ""):
         lines += [f"**Reconstruction**: {_plain(remade)}", ""]
@@ -31,10 +48,11 @@ def about(log: Log, notes: Sequence[str]) -> str:
         if log[name].origin != log.origin:
             others.setdefault(log[name].origin, []).append(name.replace("_", " "))
     lines += [f"- **{origin}**: {', '.join(names)}" for origin, names in others.items()]
-    lines += ["", "## How it is drawn", "", *(f"- {note}" for note in notes)]
-    for title, entries in (("Metadata", told), ("Provenance", _record(log))):
-        lines += ["", f"## {title}", "", *_entries(entries)] if entries else []
-    return "\n".join(lines) + "\n"
+    if notes:
+        lines += ["", "## How it is drawn", "", *(f"- {note}" for note in notes)]
+    for heading, entries in (("Metadata", told), ("Provenance", _record(log))):
+        lines += ["", f"## {heading}", "", *_entries(entries)] if entries else []
+    return lines
 
 
 def _record(log: Log) -> dict[str, Any]:

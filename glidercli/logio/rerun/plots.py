@@ -10,7 +10,7 @@ import numpy as np
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.log import Log
 from glidercli.logio.rerun import colours as look
-from glidercli.logio.rerun.blueprint import COLOURS, series_name
+from glidercli.logio.rerun.panels import COLOURS, series_name
 from glidercli.logio.rerun.settling import columns, row
 
 if TYPE_CHECKING:
@@ -20,27 +20,42 @@ __all__ = ["Plots"]
 
 
 class Plots:
-    """The channels of a log that comes in pieces, each under /GROUP/NAME; depth is negative down.
+    """The channels of a log that comes in pieces, each under PLACE/GROUP/NAME; depth is negative down.
 
-    log : the first piece; what has samples there is what can come.
+    log : the first piece; what has samples there is what can come. zero_ns : where elapsed begins, UTC ns.
+    colour, label : of a log that is drawn with others; alone, each line has its own colour, depth that of its phase.
+    phases : names of those that came so far.
     """
 
-    def __init__(self, log: Log) -> None:
-        self._zero_ns = log.start_ns
+    def __init__(
+        self, log: Log, zero_ns: int, place: str = "", colour: look.Colour | None = None, label: str = ""
+    ) -> None:
+        self._zero_ns, self._place, self._colour, self._label = zero_ns, place, colour, label
         self._names = [name for name in CHANNELS if name in log and len(log[name])]
+        self._by_phase = colour is None and {"depth", "phase"} <= {*self._names}
         self._phase = -1.0
+        self._seen: set[int] = set()
+
+    @property
+    def phases(self) -> list[str]:
+        """Names of the phases that came so far, if depth is coloured by them."""
+        return [PHASES[code] for code in sorted(self._seen)] if self._by_phase else []
 
     def styles(self) -> Iterator[Chunk]:
         """How each is drawn: lines; heading as points, which do not join 359 to 0; phases as coloured states."""
         import rerun as rr
 
         for name in self._names:
-            entity = _entity(name)
-            style: dict[str, Any] = {"names": series_name(name), "colors": COLOURS.get(name, look.GREY)}
+            entity = self._entity(name)
+            colour = self._colour or COLOURS.get(name, look.GREY)
+            style: dict[str, Any] = {"names": self._label or series_name(name), "colors": colour}
             if name == "phase":
                 yield row(entity, rr.StateConfiguration(values=PHASES, colors=[*look.PHASE_COLOURS.values()]))
             elif name == "heading":
-                yield row(entity, rr.SeriesPoints(marker_sizes=1.5, **style))
+                yield row(entity, rr.SeriesPoints(marker_sizes=1.2, markers="circle", **style))
+            elif name == "depth" and self._by_phase:
+                del style["colors"]  # what stands still would hide what changes
+                yield row(entity, rr.SeriesLines(widths=2.0, **style))
             else:
                 yield row(entity, rr.SeriesLines(widths=1.5, **style))
 
@@ -53,16 +68,30 @@ class Plots:
             if not len(channel):
                 continue
             if name == "phase":
-                changed = np.flatnonzero(np.diff(channel.values, prepend=self._phase))
-                self._phase = float(channel.values[-1])
-                states = [PHASES[int(value)] for value in channel.values[changed]]
-                if states:
-                    times = channel.time_ns[changed]
-                    yield columns(_entity(name), self._zero_ns, times, rr.StateChange.columns(state=states))
+                yield from self._states(piece)
                 continue
             values = channel.values * (-1.0 if name == "depth" else CHANNELS[name].factor)
-            yield columns(_entity(name), self._zero_ns, channel.time_ns, rr.Scalars.columns(scalars=values))
+            yield columns(self._entity(name), self._zero_ns, channel.time_ns, rr.Scalars.columns(scalars=values))
 
+    def _states(self, piece: Log) -> Iterator[Chunk]:
+        """Phases where they begin, and the colour of depth from there on."""
+        import rerun as rr
 
-def _entity(name: str) -> str:
-    return f"/{CHANNELS[name].group}/{name}"
+        times, codes = piece["phase"].time_ns, piece["phase"].values.astype(np.int64)
+        changed = np.flatnonzero(np.diff(codes, prepend=int(self._phase)))
+        if not len(changed):
+            return
+        states = [PHASES[code] for code in codes[changed]]
+        yield columns(self._entity("phase"), self._zero_ns, times[changed], rr.StateChange.columns(state=states))
+        if self._by_phase:
+            paint = look.packed(np.array([look.PHASE_COLOURS[state] for state in states], dtype=np.uint8))
+            begins = times[changed]
+            if self._phase < 0.0 and len(piece["depth"]) and piece["depth"].time_ns[0] < begins[0]:
+                grey = look.packed(np.array([look.GREY], dtype=np.uint8))
+                begins, paint = np.append(piece["depth"].time_ns[:1], begins), np.append(grey, paint)
+            yield columns(self._entity("depth"), self._zero_ns, begins, rr.SeriesLines.columns(colors=paint))
+        self._phase = float(codes[-1])
+        self._seen.update(codes[changed].tolist())
+
+    def _entity(self, name: str) -> str:
+        return f"{self._place}/{CHANNELS[name].group}/{name}"

@@ -35,6 +35,7 @@ class RerunStream:
         self._recording = rr.RecordingStream("glider", send_properties=False)
         self._recording.set_log_time_enabled(False)
         self._recording.connect_grpc(url)
+        self._times = 0
 
     def begin(self, contents: Contents) -> None:
         """Send how things are drawn."""
@@ -50,12 +51,16 @@ class RerunStream:
     def whole(self, contents: Contents, log: Log, following: bool, panels: bool) -> None:
         """Send what shows the whole, but events.
 
-        following : whether the viewer's clock goes with what comes. panels : whether they are arranged anew.
+        following : whether the viewer's clock goes with what comes. panels : whether they are arranged anew, and the
+        water's sections drawn anew.
         """
         import rerun as rr
         import rerun.blueprint as rrb
 
-        chunks, views = contents.whole(log, events=False)
+        if panels:
+            self._times += 1
+        sections = f"/section/{self._times}" if panels else None
+        chunks, views = contents.whole(log, events=False, sections=sections)
         self._send(chunks)
         if panels:
             if following:

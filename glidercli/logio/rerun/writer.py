@@ -6,11 +6,13 @@ import errno
 import hashlib
 import json
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from glidercli.errors import OutputError
+from glidercli.errors import InputError, OutputError
 from glidercli.log import Log
+from glidercli.logio.rerun.beside import Beside
 from glidercli.logio.rerun.contents import Contents
 from glidercli.logio.rerun.settling import Settled, identified, settle
 
@@ -20,25 +22,37 @@ if TYPE_CHECKING:
 __all__ = ["RerunLog", "write_rerun"]
 
 
-def write_rerun(log: Log, path: Path) -> None:
+def write_rerun(log: Log, path: Path, beside: Sequence[Log] = (), names: Sequence[str] = ()) -> None:
     """Write the log to `path` as a Rerun recording with its blueprint; the same log gives the same bytes.
+
+    beside : logs to show in the same panels, each in its colour, with their differences from the first; on its clock
+    where they overlap in UTC, else all start together. names : what to call the log and each of those; default: its
+    kind, such as MEASURED or SIMULATED.
 
     Timelines are utc and elapsed (from the log's first sample). Each channel keeps its own times and stands under
     /GROUP/NAME in table units (degrees, dbar, cm3), depth negative down; the scene stands under /world in NED, m.
     Raises OutputError for a log without a single sample.
     """
-    file = RerunLog(path)
+    file = RerunLog(path, beside, names)
     file.add(log)
     file.close(log)
 
 
 class RerunLog:
-    """A log as a Rerun recording, piece by piece; the same log in the same pieces gives the same bytes."""
+    """A log as a Rerun recording, piece by piece; the same log in the same pieces gives the same bytes.
 
-    def __init__(self, path: Path) -> None:
+    beside, names : as for ``write_rerun``; the log is then added as a whole.
+    """
+
+    def __init__(self, path: Path, beside: Sequence[Log] = (), names: Sequence[str] = ()) -> None:
         self._path = path
+        self._beside, self._called = [other.sliced(None, None) for other in beside], tuple(names)
+        if self._called and len(self._called) != len(self._beside) + 1:
+            raise InputError("names", f"{len(self._called)} for {len(self._beside) + 1} logs; one each is needed")
+        if not all(other.channels for other in self._beside):
+            raise InputError("beside", "a log holds no sample")
         self._hash = hashlib.sha256()
-        self._contents: Contents | None = None
+        self._contents: Contents | Beside | None = None
         self._sent = 0
 
     def add(self, log: Log) -> None:
@@ -55,8 +69,7 @@ class RerunLog:
         """Finish the file. log : its last piece, with all events and the final metadata."""
         if self._contents is None:
             raise OutputError(self._path, "not written: the log holds no sample")
-        told = [log.origin, [*log.metadata.items()], [(e.name, e.time_ns, e.depth) for e in log.events]]
-        self._hash.update(json.dumps(told).encode())
+        self._tell(log)
         key = self._hash.hexdigest()
         chunks, views = self._contents.whole(log)
         import rerun as rr
@@ -68,13 +81,17 @@ class RerunLog:
         self._recording.disconnect()
         settle(self._path, self._key[:32], key)
 
-    def _begin(self, log: Log) -> Contents:
+    def _begin(self, log: Log) -> Contents | Beside:
         os.environ.setdefault("RUST_LOG", "off")  # faults are ours to tell
         import rerun as rr
 
         rr.set_strict_mode(True)
+        for other in self._beside:
+            self._digest(other)
+            self._tell(other)
+        self._hash.update(json.dumps(self._called).encode())
         self._key = self._hash.hexdigest()
-        contents = Contents(log)
+        contents = Beside(log, self._beside, self._called) if self._beside else Contents(log)
         self._recording = rr.RecordingStream("glider", recording_id=self._key[:32], send_properties=False)
         self._recording.set_log_time_enabled(False)
         self._recording.save(self._path)
@@ -94,6 +111,11 @@ class RerunLog:
             self._recording.flush()
         except RuntimeError:  # all that Rerun tells
             raise OSError(errno.ENOSPC, "the writer of Rerun gave up; is the disk full?") from None
+
+    def _tell(self, log: Log) -> None:
+        """Take what a log tells beside its samples into the hash."""
+        told = [log.origin, [*log.metadata.items()], [(e.name, e.time_ns, e.depth) for e in log.events]]
+        self._hash.update(json.dumps(told).encode())
 
     def _digest(self, log: Log) -> None:
         """Take all samples of a piece into the hash; the order of channels does not count."""

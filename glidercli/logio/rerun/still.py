@@ -1,0 +1,101 @@
+"""What of a flight stands still in Rerun? The lines and points of its track, its ends, its fixes, its current.
+
+Each gives its chunks, and notes for a reader of the pictures.
+"""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glidercli.logio.rerun import colours as look
+from glidercli.logio.rerun.settling import row
+
+if TYPE_CHECKING:
+    pass
+
+__all__ = ["Drawn", "arrows", "fixes", "track"]
+
+Array = NDArray[np.float64]
+Drawn = tuple[list[Any], list[str]]
+"""Chunks and notes."""
+
+ARROWS = 60
+"""Arrows of current along a track, at most."""
+
+
+def track(rows: Array, world: str, colour: look.Colour | None = None) -> Drawn:
+    """The track in the colours of its phases, or of depth, or in one; its ends; a marker at the vehicle's place.
+
+    rows : (n, 4), north, east, down, m, and the code of the phase, NaN where there is none. world : entity above all.
+    """
+    import rerun as rr
+
+    places = rows[:, :3]
+    if colour is None:
+        codes, colours, note = _track_colours(rows)
+    else:
+        codes, colours, note = np.zeros(len(rows), np.int64), [colour], ""
+    edges = [0, *(np.flatnonzero(np.diff(codes)) + 1), len(codes) - 1]
+    pieces = [(a, b) for a, b in itertools.pairwise(edges) if b > a]
+    strips, paint = [places[a : b + 1] for a, b in pieces], [colours[codes[a]] for a, _ in pieces]
+    extent = float(np.linalg.norm(np.ptp(places, axis=0)))
+    thin = rr.LineStrips3D([places], colors=look.PATH, radii=rr.Radius.ui_points(0.7))
+    chunks = [
+        row(f"{world}/track", rr.LineStrips3D(strips, colors=paint, radii=rr.Radius.ui_points(1.5))),
+        row(f"{world}/path", thin),  # beside the hull, where the track would hide it
+    ]
+    marker: dict[str, Any] = {"radii": rr.Radius.ui_points(7), "colors": colour or look.GOLD}
+    chunks.append(row(f"{world}/vehicle/marker", rr.Points3D([[0, 0, 0]], **marker)))
+    if colour is None:
+        near = float(np.linalg.norm(places[0] - places[-1])) < 0.1 * extent
+        ends: dict[str, Any] = {"labels": ["start", "end"], "colors": [look.GREEN, look.RED]}
+        if near:
+            ends["labels"] = ["start and end", ""]
+        ends |= {"show_labels": True, "radii": rr.Radius.ui_points(5)}
+        chunks.append(row(f"{world}/ends", rr.Points3D(places[[0, -1]], **ends)))
+        note += " It starts at the green point and ends at the red one; the gold one is the vehicle."
+    return chunks, [note] if note else []
+
+
+def _track_colours(rows: Array) -> tuple[NDArray[np.int64], list[look.Colour], str]:
+    """A colour code for each point of the track, the colours, and what they mean."""
+    if np.isfinite(rows[:, 3]).all():
+        meaning = ", ".join(f"{name} {look.NAMES[colour]}" for name, colour in look.PHASE_COLOURS.items())
+        return rows[:, 3].astype(np.int64), [*look.PHASE_COLOURS.values()], f"Track: {meaning}."
+    deepest = max(float(rows[:, 2].max()), 1.0)
+    colours = [(200 - 4 * i, 240 - 6 * i, 245 - 2 * i) for i in range(32)]
+    meaning = f"Track coloured by depth, light at the surface, dark at {deepest:.0f} m."
+    return np.clip(rows[:, 2] / deepest * 31, 0, 31).astype(np.int64), colours, meaning
+
+
+def fixes(places: Array, count: int, world: str, colour: look.Colour = look.VIOLET) -> Drawn:
+    """Recorded positions at the surface. places : (n, 3), NED, m. count : how many there are in all."""
+    import rerun as rr
+
+    if not len(places):
+        return [], []
+    points = rr.Points3D(places, radii=rr.Radius.ui_points(3.5), colors=colour)
+    return [row(f"{world}/fixes", points)], [
+        f"{look.NAMES[colour].capitalize()} points at the surface: {count} recorded positions."
+    ]
+
+
+def arrows(rows: Array, extent: float, world: str, colour: look.Colour = look.TEAL) -> Drawn:
+    """Arrows of current along the track, level. rows : (n, 5), place and current, north and east, m, m/s."""
+    import rerun as rr
+
+    if not len(rows):
+        return [], []
+    rows = rows[np.unique(np.linspace(0, len(rows) - 1, ARROWS).round().astype(np.int64))]
+    vectors = np.column_stack([rows[:, 3:5], np.zeros(len(rows))])
+    fastest = float(np.linalg.norm(vectors, axis=1).max())
+    if not fastest > 0.0:
+        return [], []
+    vectors *= 0.14 * extent / fastest
+    style = dict[str, Any](colors=colour, radii=rr.Radius.ui_points(1.1))
+    note = f"{look.NAMES[colour].capitalize()} arrows: current; the longest is {fastest:.2f} m/s."
+    return [row(f"{world}/current", rr.Arrows3D(vectors=vectors, origins=rows[:, :3], **style))], [note]
