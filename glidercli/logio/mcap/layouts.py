@@ -28,8 +28,8 @@ LAYOUTS = {
 """Names of the layouts, and what each is for."""
 TITLE_KEYS = {"foxglove": "foxglovePanelTitle", "lichtblick": "lichtblickPanelTitle"}
 
-NEAR = ("vehicle", "movable_mass", "rudder", "current", "track", "surface")
-FAR = ("vehicle", "movable_mass", "rudder", "track", "surface", "fixes", "current_profile", "current_average")
+NEAR = ("vehicle", "movable_mass", "rudder", "current", "track", "surface", "bottom")
+FAR = ("vehicle", "movable_mass", "rudder", "track", "surface", "bottom", "fixes", "current_profile", "current_average")
 """The topics /viz/NAME that are drawn about the hull, and of the whole flight; a viewer draws none unless told to."""
 COLOURS = ("#4e98e2", "#f5774d", "#5fc27e", "#b98cff", "#f0d05a")
 

@@ -13,7 +13,7 @@ import numpy as np
 from glidercli.channels import PHASES
 from glidercli.frames import quaternion_from_euler_arrays
 from glidercli.log import Log
-from glidercli.logio.drawable import hull_size, mass_notes, number, slide_zero
+from glidercli.logio.drawable import bottom, hull_size, mass_notes, origin, slide_zero
 from glidercli.logio.mcap import hull, shapes, still
 from glidercli.logio.mcap.averages import averages
 from glidercli.logio.mcap.file import Topic
@@ -87,6 +87,8 @@ class Scene:
             topics.append(still.track(self._track.rows(), self._track.count, log["north"].origin, self._start_ns))
         if self._place.known:
             topics += still.surface(self._bounds, self._level, self._start_ns)
+            if (depth := bottom(log)) is not None:
+                topics += still.bottom(self._bounds, self._level, depth, self._start_ns)
         marks = self._marks(log)
         if len(marks):
             topics.append(still.fix_marks(marks, self._fixes.count, size, self._start_ns))
@@ -180,15 +182,14 @@ class Scene:
 
     def _marks(self, log: Log) -> Array:
         """Measured fixes as north and east of the origin, (n, 2), m; none where they cannot be placed."""
-        latitude, longitude = number(log, "origin_latitude_deg"), number(log, "origin_longitude_deg")
-        fixes = self._fixes.rows()
+        counted_from, fixes = origin(log), self._fixes.rows()
         if not len(fixes) or log["latitude"].origin != "measured":
             return np.empty((0, 2))
-        if latitude is None or longitude is None:
+        if counted_from is None:
             if self._track.count:
                 return np.empty((0, 2))
-            latitude, longitude = fixes[0].tolist()
-        places = np.stack(track_of_geodetic(fixes[:, 0], fixes[:, 1], latitude, longitude), axis=-1)
+            counted_from = tuple(fixes[0].tolist())
+        places = np.stack(track_of_geodetic(fixes[:, 0], fixes[:, 1], *counted_from), axis=-1)
         return places[np.isfinite(places).all(axis=-1)]
 
 

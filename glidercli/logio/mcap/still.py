@@ -1,4 +1,4 @@
-"""What stands still in the scene of a flight? Track, sea surface, position fixes, and the current by depth.
+"""What stands still in the scene of a flight? Track, sea surface, bottom, position fixes, and the current by depth.
 
 Each is one message at the start of the flight, which a viewer restores on every seek. All are in `map_ned`.
 """
@@ -26,7 +26,7 @@ from glidercli.logio.mcap.primitives import (
     text,
 )  # fmt: skip
 
-__all__ = ["current_average", "current_profile", "fix_marks", "surface", "track"]
+__all__ = ["bottom", "current_average", "current_profile", "fix_marks", "surface", "track"]
 
 ARROWS = 40
 """Arrows of current in the scene at most, one in each of so many bins of depth."""
@@ -44,6 +44,8 @@ VIOLET: Colour = (0.72, 0.55, 1.0, 1.0)
 WHITE: Colour = (1.0, 1.0, 1.0, 1.0)
 SEA: Colour = (0.27, 0.59, 0.82, 0.12)
 SEA_LINES: Colour = (0.43, 0.71, 0.9, 0.4)
+GROUND: Colour = (0.55, 0.43, 0.3, 0.25)
+GROUND_LINES: Colour = (0.72, 0.58, 0.42, 0.5)
 PHASE_COLOURS: dict[str, Colour] = {
     "surface": GREEN, "dive": (0.34, 0.64, 1.0, 1.0), "climb": ORANGE, "hover": VIOLET,
     "inflection": (0.94, 0.82, 0.35, 1.0),
@@ -79,6 +81,19 @@ def surface(bounds: Array, level: float, time_ns: int) -> list[Messages]:
 
     bounds : (2, 3), least and greatest north, east, down of the flight, m. level : of the surface in `map_ned`, m.
     """
+    return _sheet("surface", "sea surface", bounds, level, (SEA, SEA_LINES), time_ns)
+
+
+def bottom(bounds: Array, level: float, depth: float, time_ns: int) -> list[Messages]:
+    """/viz/bottom: the bottom, level, at the depth that the log tells, m; as for ``surface``."""
+    return _sheet("bottom", f"bottom, {depth:g} m", bounds, level + depth, (GROUND, GROUND_LINES), time_ns)
+
+
+def _sheet(
+    name: str, words: str, bounds: Array, level: float, colours: tuple[Colour, Colour], time_ns: int
+) -> list[Messages]:
+    """A level sheet over the flight with a grid; colours of the sheet and of the lines."""
+    fill, ink = colours
     extent = bounds[1] - bounds[0]
     if not np.isfinite([*bounds.flat, *extent, level]).all() or np.abs(bounds).max() > 1e9:
         return []
@@ -94,13 +109,13 @@ def surface(bounds: Array, level: float, time_ns: int) -> list[Messages]:
     grid += [[(south, e, level), (north, e, level)] for e in rows[1]]
     corners = np.array([(south, west), (north, west), (north, east), (south, east)])
     sheet = {
-        "pose": pose(), "points": points(np.column_stack([corners, np.full(4, level)])), "color": colour(SEA),
+        "pose": pose(), "points": points(np.column_stack([corners, np.full(4, level)])), "color": colour(fill),
         "indices": [0, 1, 2, 0, 2, 3],
     }  # fmt: skip
-    lines = line(np.array(list(itertools.chain(*grid)), np.float64), SEA_LINES, 1.0, 2)
-    told = text(f"sea surface, grid {spacing:g} m", (*SEA_LINES[:3], 1.0), float(south), float(east), level)
-    content = scene(time_ns, NED, "surface", {"grid": f"{spacing:g} m"}, triangles=[sheet], lines=[lines], texts=[told])
-    return [single("/viz/surface", time_ns, content)]
+    lines = line(np.array(list(itertools.chain(*grid)), np.float64), ink, 1.0, 2)
+    told = text(f"{words}, grid {spacing:g} m", (*ink[:3], 1.0), float(south), float(east), level)
+    content = scene(time_ns, NED, name, {"grid": f"{spacing:g} m"}, triangles=[sheet], lines=[lines], texts=[told])
+    return [single(f"/viz/{name}", time_ns, content)]
 
 
 def fix_marks(places: Array, count: int, size: float, time_ns: int) -> Messages:
