@@ -96,7 +96,9 @@ def read_csv(path: Path, aids: Aids = Aids()) -> Part:
     changed = ""
     if metadata:
         expected = origin_word(metadata["origin"], metadata["metadata"], set(metadata["channels"].values()))
-        no_sample = word == BOTH and expected == "measured"  # of its derived channels, which the metadata then leave out
+        no_sample = (
+            word == BOTH and expected == "measured"
+        )  # of its derived channels, which the metadata then leave out
         if word not in (None, expected) and not no_sample:
             raise InputError(path, f"its rows say {word}, {beside} says {expected}; one belongs to another table")
         if metadata.get("table_sha256") not in (None, file_hash(path)):
