@@ -87,7 +87,7 @@ def unread_times(column: str, time_ns: Times, shown: Shown, needed: str) -> str:
     bad = np.flatnonzero(time_ns == NO_TIME)
     if not len(bad):
         return ""
-    return f"{column}: {len(bad)} times cannot be read, the first in {shown(column, int(bad[0]))}; {needed}"
+    return f"{column}: {len(bad)} times cannot be read, the first in {shown(column, int(bad[0]))}; " + needed
 
 
 def unusable(dropped: Mapping[str, int], hints: list[str]) -> str:
