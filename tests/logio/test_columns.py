@@ -139,7 +139,7 @@ def test_the_line_that_is_shown_is_that_of_the_file(tmp_path: Path) -> None:
     path = table(tmp_path, *rows, head="a\nb\nt,Depth,p,P", mapping=mapping)
     lines = path.read_text().split("\n")
     _, report = read_one(path)
-    number, time = report.warnings
+    time, number = report.warnings
     assert number.endswith(f"line {lines.index(rows[-1]) + 1}: 'deep'")
     assert time.startswith(f"t: 1 times cannot be read, the first in line {lines.index('soon,1,2,3') + 1}: 'soon'; ")
     assert time.endswith('; [time] format = "iso" does not fit')

@@ -67,10 +67,10 @@ def read_table(path: Path, aids: Aids = Aids()) -> Part:
     origin: Origin = mapping.file.origin or "measured"
     time_ns = times_of(cells.columns, mapping.time, mapping.missing, mapping.file.decimal)
     shown = _shower(path, mapping.file, cells.columns)
-    values = _values(cells.columns, mapping, warnings, shown)
     times, how = mapping.time.names, f'[time] format = "{mapping.time.format}"'
     if line := unread_times(" ".join(times), time_ns, lambda _, row: shown(times, row), f"{how} does not fit"):
         warnings.append(line)
+    values = _values(cells.columns, mapping, warnings, shown)
     dropped: Counter[str] = Counter({"wrong number of fields": cells.cut} if cells.cut else {})
     good = usable(time_ns, values if len(values) >= FEW else values | {"": _any(values)}, dropped)
     channels = {}
@@ -132,10 +132,10 @@ def _values(
     columns: MappingOf[str, Any], mapping: Any, warnings: list[str], shown: Callable[[Sequence[str], int], str]
 ) -> dict[str, Array]:
     """The mapped columns by channel, SI, NaN where there is no value."""
-    from glidercli.logio.named_units import conversion
     from glidercli.logio.own.cells import has_decimal_comma
     from glidercli.logio.quantities import without_sentinels
     from glidercli.logio.tables.cells import numbers
+    from glidercli.named_units import conversion
 
     values = {}
     for channel, column in mapping.columns.items():

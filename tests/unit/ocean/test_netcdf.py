@@ -301,7 +301,7 @@ def test_a_record_in_time_is_a_log(tmp_path):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda d: d.TEMP.attrs.update(units="furlong"), "TEMP is in 'furlong', allowed: degc"),
+        (lambda d: d.TEMP.attrs.update(units="furlong"), "TEMP is in 'furlong', allowed: degC, K"),
         (lambda d: d.TIME.attrs.update(units="moons since 2020-01-01"), "TIME: units = 'moons"),
     ],
 )
