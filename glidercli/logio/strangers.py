@@ -16,6 +16,7 @@ __all__ = ["check_text", "stranger"]
 _HEAD = 65536
 _NOT_PACKED = {b"\x89MCAP": "MCAP", b"PAR1": "Parquet", b"\x89HDF": "NetCDF", b"CDF": "NetCDF"}
 """How files begin that are read unpacked alone."""
+_GUNZIP = "gunzip it first"
 _UTF16 = "is text in UTF-16, which is read in UTF-8 alone: iconv -f UTF-16 -t UTF-8 OLD > NEW makes it so"
 _CR = r"has lines that end in CR alone, as on an old Macintosh: tr '\r' '\n' < OLD > NEW makes lines that can be read"
 _CONSOLE = (
@@ -49,7 +50,7 @@ def stranger(path: Path, formats: Sequence[str]) -> InputError:
         with path.open("rb") as stream:
             packed = is_gzip(stream.read(2))
         what = _packed(head) if packed else "is not a log that can be read"
-    if water := _water(path, head):
+    if not what.endswith(_GUNZIP) and (water := _water(path, head)):
         return InputError(path, water)
     if path.suffix.lower() in ENDINGS:
         what += f"; if it is a table, --columns FILE.toml or {path.stem}.toml beside it says what its columns are "
@@ -93,5 +94,5 @@ def _packed(unpacked: bytes) -> str:
     if not kind and any(column in unpacked.split(b"\n", 1)[0].split(b",") for column in (b"time_utc", b"elapsed_s")):
         kind = "a table"
     if kind:
-        return f"is {kind} in gzip, which is read unpacked alone: gunzip it first"
+        return f"is {kind} in gzip, which is read unpacked alone: {_GUNZIP}"
     return "is gzip data that unpack to no log: damaged, or not one"
