@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import contextlib
 import os
 import tomllib
@@ -11,7 +12,10 @@ from typing import Any
 
 from glidercli.errors import InputError, OutputError
 
-__all__ = ["atomic", "check_not_inputs", "check_outputs", "leftovers", "metadata_path", "read_toml", "readable_file"]
+__all__ = [
+    "atomic", "check_not_inputs", "check_outputs", "cr_alone", "is_utf16", "leftovers", "metadata_path", "read_toml",
+    "readable_file",
+]  # fmt: skip
 
 _LONGEST_NAME = 200
 """bytes; file systems take 255, and the name while writing and that of the metadata are longer."""
@@ -30,6 +34,20 @@ def readable_file(path: Path) -> Path:
     if path.stat().st_size == 0:
         raise InputError(path, "is empty")
     return path
+
+
+def is_utf16(head: bytes) -> bool:
+    """Whether text is in UTF-16 (or UTF-32), by its mark or by a zero beside every letter. head : the first bytes."""
+    if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return True
+    pairs = head[: min(len(head), 4096) // 2 * 2]
+    one, other = pairs[::2], pairs[1::2]
+    return len(pairs) >= 8 and any(not any(a) and b.isascii() and 0 not in b for a, b in ((one, other), (other, one)))
+
+
+def cr_alone(head: bytes) -> bool:
+    """Whether the lines of a text end in CR alone. head : the first bytes."""
+    return head.count(b"\r") > 1 and b"\n" not in head and b"\0" not in head
 
 
 def read_toml(path: Path, what: str) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.channels import CHANNELS, PHASES, by_column
+from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import InputError
 
 if TYPE_CHECKING:
@@ -191,24 +191,3 @@ class Log:
             else:
                 columns[spec.column] = column
         return pd.DataFrame(columns)
-
-    @classmethod
-    def from_table(cls, table: pd.DataFrame, origin: Origin, metadata: Mapping[str, str] | None = None) -> Log:
-        """The Log of a table with time_utc and columns in the contract's names; unknown columns are ignored.
-
-        Rows must be in time order; a missing value is a missing sample.
-        """
-        time_ns = table["time_utc"].to_numpy().astype("datetime64[ns]").astype(np.int64)
-        channels = {}
-        for name in table.columns:
-            spec = by_column(str(name))
-            if spec is None:
-                continue
-            if spec.name == "phase":
-                index = {word: float(i) for i, word in enumerate(PHASES)}
-                values = np.array([index.get(word, np.nan) for word in table[name]])
-            else:
-                values = table[name].to_numpy(dtype=float) / spec.factor
-            valid = np.isfinite(values)
-            channels[spec.name] = Channel(spec.name, time_ns[valid], values[valid], origin)
-        return cls(channels, origin, dict(metadata or {}))

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import sys
 import textwrap
 from collections.abc import Iterable, Mapping
 from typing import Any, TextIO
 
 WIDTH = 80
-"""Columns of a terminal."""
+"""Columns of a terminal, and the most that are used of a wider one."""
+NARROW = 52
+"""Columns that are used of a narrower one."""
 
 
 def finite(value: Any) -> Any:
@@ -31,17 +34,27 @@ def plain(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
+def columns_of(stream: TextIO) -> int:
+    """Columns that lines for people may take: those that COLUMNS says, else the terminal's; of a pipe 80."""
+    told = os.environ.get("COLUMNS", "")
+    if told.isdigit():
+        columns = int(told)
+    else:
+        columns = os.get_terminal_size(stream.fileno()).columns if stream.isatty() else WIDTH
+    return min(max(columns, NARROW), WIDTH) if columns else WIDTH
+
+
 def shown(text: str, stream: TextIO) -> str:
     """A line as it goes to a stream: wrapped for a terminal, whole for a pipe, so that grep finds it."""
-    return "\n".join(wrapped(text)) if stream.isatty() else plain(text)
+    return "\n".join(wrapped(text, columns_of(stream))) if stream.isatty() else plain(text)
 
 
-def wrapped(text: str) -> list[str]:
-    """A line within 80 columns; what goes on is indented. Names of files stay whole."""
+def wrapped(text: str, width: int = WIDTH) -> list[str]:
+    """A line within some columns; what goes on is indented. Names of files stay whole."""
     text = plain(text)
     indent = " " * (len(text) - len(text.lstrip()) + 2)
     return textwrap.wrap(
-        text, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+        text, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
     ) or [""]  # fmt: skip
 
 

@@ -23,7 +23,10 @@ def replay(
     format: FormatOption = None,
     cache: CacheOption = None,
     columns: ColumnsOption = None,
-    start: Annotated[str | None, typer.Option(metavar="T", help="From: ISO 8601 UTC, or s since the start.")] = None,
+    start: Annotated[
+        str | None,
+        typer.Option(metavar="T", help="From: ISO 8601 UTC, or s since the start; records are counted of whole files."),
+    ] = None,
     end: Annotated[str | None, typer.Option(metavar="T", help="To, not included: ISO 8601 UTC, or s.")] = None,
     strict: Annotated[bool, typer.Option("--strict", help="A file that cannot be read is a failure.")] = False,
     attach: Annotated[bool, typer.Option("--attach", help="Put the files that were read into the .mcap.")] = False,
@@ -122,6 +125,10 @@ def _summary(d: dict[str, Any], kind_of_log: str, metadata: Mapping[str, str]) -
         name, kind = Path(f["path"]).name, f["format"] or "-"
         lines.append(f"{name:<34} {kind:<12} {f['records']:>8} {f['kept']:>8}  {gone}")
         lines += [f"    {warning}" for warning in f["warnings"] if warning != f.get("error")]
+    lines += [f"not looked at: {line}" for line in d["passed_over"]]
+    if d["part"] is not None:
+        first, last = d["part"]["start"] or "the start", d["part"]["end"] or "the end"
+        lines.append(f"records above are of whole files; samples below from {first} to {last}, not included")
     lines.append(f"{'channel':<30} {'samples':>8} {'minimum':>12} {'maximum':>12}  origin")
     for c in d["channels"]:
         low, high = ("-" if v is None else f"{v:z.6g}" for v in (c["minimum"], c["maximum"]))

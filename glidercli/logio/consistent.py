@@ -14,6 +14,7 @@ from glidercli.log import Channel
 from glidercli.logio.jumps import CIRCLE, DRIFT, NOISE, RATE, agreeing, spikes
 from glidercli.logio.reader import Part
 from glidercli.units import DBAR
+from glidercli.utc import to_second
 
 __all__ = ["consistent"]
 
@@ -60,7 +61,7 @@ def _without(part: Part, names: tuple[str, ...], bad: Times, told: str, reason: 
         channels[name] = Channel(name, channel.time_ns[good], channel.values[good], channel.origin)
     left = [channel.time_ns for channel in channels.values()]
     gone = np.isin(part.record_ns, bad) & ~np.isin(part.record_ns, np.concatenate(left))
-    note = f"{told.format(len(bad))}: {', '.join(map(_clock, bad[:NAMED]))}{' ...' if len(bad) > NAMED else ''}"
+    note = f"{told.format(len(bad))}: {', '.join(map(to_second, bad[:NAMED]))}{' ...' if len(bad) > NAMED else ''}"
     report = part.report
     if count := int(gone.sum()):
         dropped = (*report.dropped, (reason, count))
@@ -77,8 +78,3 @@ def _without(part: Part, names: tuple[str, ...], bad: Times, told: str, reason: 
 def _with_note(part: Part, note: str) -> Part:
     report = dataclasses.replace(part.report, warnings=(*part.report.warnings, note))
     return dataclasses.replace(part, report=report)
-
-
-def _clock(time_ns: int) -> str:
-    """A time as ISO 8601 UTC to the second."""
-    return f"{np.datetime64(int(time_ns), 'ns').astype('datetime64[s]')}Z"

@@ -15,8 +15,8 @@ _LIMITS: dict[str, tuple[float, float]] = {
     "pressure": (-1e5, 1.25e8),
     "latitude": (-90.0, 90.0),
     "longitude": (-180.0, 360.0),
-    "north": (-2e7, 2e7),
-    "east": (-2e7, 2e7),
+    "north": (-1e9, 1e9),
+    "east": (-1e9, 1e9),
     "down": (-10.0, 12000.0),
     "roll": (-math.pi, math.pi),
     "pitch": (-0.5 * math.pi, 0.5 * math.pi),
@@ -33,7 +33,7 @@ _LIMITS: dict[str, tuple[float, float]] = {
     "conductivity": (0.0, 8.0),
     "salinity": (0.0, 45.0),
     "absolute_salinity": (0.0, 45.0),
-    "density": (900.0, 1100.0),
+    "density": (900.0, 1200.0),
     "phase": (0.0, len(PHASES) - 1.0),
 }
 _OF_UNIT = {"m/s": (-10.0, 10.0), "rad/s": (-_TURN, _TURN)}

@@ -17,6 +17,7 @@ from glidercli.logio.companions import is_companion
 from glidercli.logio.derived import with_derived
 from glidercli.logio.formats import FORMATS, check_format
 from glidercli.logio.joining import joined
+from glidercli.logio.passing_over import check_given
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport, all_dropped
 from glidercli.logio.spreading import read_all
@@ -74,6 +75,7 @@ def read(
         No format of this name.
     """
     check_format(format)
+    check_given(paths)
     if cache is not None and not Path(cache).is_dir():
         raise InputError("--cache", f"{cache} is no folder; the folder of the .cac files is needed")
     if columns is not None:

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.log import Channel
+from glidercli.years import FIRST_YEAR, LAST_YEAR
 
 __all__ = ["CHANNELS_AT_REST", "NO_TIME", "YEARS", "in_order", "sampled", "to_ns", "usable"]
 
@@ -29,7 +30,7 @@ Mask = NDArray[np.bool_]
 
 NO_TIME = np.iinfo(np.int64).min
 """Stands for a time that cannot be read."""
-YEARS = ("1700-01-01", "2200-01-01")
+YEARS = (f"{FIRST_YEAR}-01-01", f"{LAST_YEAR}-01-01")
 """Times allowed: nanoseconds in 64 bits hold little more, and others would come back as times between."""
 STRAY = 30 * 86400 * 10**9
 """Times of one file that stand further apart than this are of two clocks, ns."""

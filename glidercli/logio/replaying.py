@@ -11,6 +11,7 @@ from glidercli.channels import CHANNELS
 from glidercli.errors import InputError, UsageError
 from glidercli.files import check_not_inputs, check_outputs
 from glidercli.log import Channel, Log
+from glidercli.logio.passing_over import passed_over
 from glidercli.logio.reading import Reading, read
 from glidercli.logio.records import NO_TIME, to_ns
 from glidercli.logio.report import FileReport
@@ -24,11 +25,18 @@ __all__ = ["Replay", "replay"]
 
 @dataclasses.dataclass(frozen=True)
 class Replay:
-    """A log as replayed: its files' accounts, and the outputs written."""
+    """A log as replayed: its files' accounts, and the outputs written.
+
+    part : first and last moment that were asked for, UTC ns, the last not included, None where an end was left open;
+    or None for the whole log. The accounts are of whole files all the same. passed_over : files that were not looked
+    at, a line each.
+    """
 
     log: Log
     files: tuple[FileReport, ...]
     outputs: tuple[Path, ...]
+    part: tuple[int | None, int | None] | None = None
+    passed_over: tuple[str, ...] = ()
 
     @property
     def broken(self) -> tuple[FileReport, ...]:
@@ -41,6 +49,10 @@ class Replay:
             "files": [report.document() for report in self.files],
             "channels": [_channel(channel) for channel in self.log.channels.values() if len(channel)],
             "outputs": [str(path) for path in self.outputs],
+            "part": None
+            if self.part is None
+            else dict(zip(("start", "end"), [None if t is None else iso(t) for t in self.part], strict=True)),
+            "passed_over": list(self.passed_over),
         }
 
 
@@ -86,6 +98,7 @@ def replay(
     paths : files, folders, globs. outputs : files; the ending picks the writer.
     format, cache, columns, workers : as for ``read``.
     start, end : ISO 8601 UTC, or seconds since the log's first sample; the part with start <= time < end is taken.
+    The accounts of the files are of all their records, within it or not.
     attach : whether the files that were read go into every .mcap; a UsageError where there is none.
     beside : other logs, a file, folder or glob each, that every .rrd shows beside this one; a UsageError where there is
         none. They are put on this log's clock, see rerun/clocks.py, and cut with it by start and end.
@@ -109,9 +122,10 @@ def replay(
         more = f", and {len(broken) - 1} more files" if len(broken) > 1 else ""
         raise InputError(broken[0].path, f"{broken[0].error} (--strict){more}")
     together = [aligned(log, other.log) for other in others]
+    part = None
     if start is not None or end is not None:
-        span = _moment(log, "--start", start), _moment(log, "--end", end)
-        log, *together = (one.sliced(*span) for one in (log, *together))
+        part = (_moment(log, "--start", start), _moment(log, "--end", end))
+        log, *together = (one.sliced(*part) for one in (log, *together))
         if not log.channels:
             raise InputError(
                 "--start, --end",
@@ -132,7 +146,7 @@ def replay(
     more = f" and {len(paths) - 1} more" if len(paths) > 1 else ""
     names = [_name(paths[0]) + more, *map(_name, beside)] if beside else []
     write(log, *targets, force=force, attach=sources[0] if attach else (), beside=together, names=names)
-    return Replay(log, tuple(files), tuple(targets))
+    return Replay(log, tuple(files), tuple(targets), part, passed_over([*paths, *beside]))
 
 
 def _name(path: str | Path) -> str:

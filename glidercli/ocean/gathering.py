@@ -12,7 +12,7 @@ from glidercli.errors import InputError
 from glidercli.log import Log
 from glidercli.ocean.cast import Cast
 from glidercli.ocean.current import CurrentProfile
-from glidercli.ocean.series import Moment, utc_seconds
+from glidercli.ocean.series import Moment, no_start, utc_seconds
 from glidercli.ocean.water_file import read_casts, read_currents
 
 if TYPE_CHECKING:
@@ -110,12 +110,8 @@ def _in_order(
         warnings = (word, *found[0].warnings)
         return (dataclasses.replace(found[first], moment=None, warnings=warnings),)
     if undated:
-        dated = next(i for i, moment in enumerate(timed) if moment.is_utc)
-        raise InputError(
-            found[dated].source,
-            f"its {what}s have times in UTC, and the flight has none: start_time in a mission, --controls or --initial "
-            "with a dated log, or elapsed_s in a table is needed",
-        )
+        dated = min((i for i, moment in enumerate(timed) if moment.is_utc), key=lambda i: timed[i].seconds)
+        raise no_start(found[dated].source, what, timed[dated])
     order = sorted(range(len(found)), key=lambda i: timed[i].since(start_ns) or 0.0)
     for one, other in itertools.pairwise(order):
         if timed[one].since(start_ns) == timed[other].since(start_ns):

@@ -9,7 +9,7 @@ from __future__ import annotations
 import contextlib
 import math
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,9 +18,11 @@ from numpy.typing import NDArray
 
 from glidercli.errors import InputError
 from glidercli.files import readable_file
+from glidercli.named_units import conversion_to, names_of
 from glidercli.netcdf_opening import dataset
 from glidercli.ocean.source import listed
-from glidercli.units import KNOT
+from glidercli.units import DBAR
+from glidercli.years import FIRST_SECOND, LAST_SECOND
 
 __all__ = ["MOST_VALUES", "QUANTITIES", "NcFile", "long_dimensions", "opened"]
 
@@ -33,86 +35,61 @@ MOST_VALUES = 50_000_000
 class Quantity(NamedTuple):
     """How a quantity is found.
 
-    standard : CF standard names. names : of variables, lower case. units : factor and offset to this program's unit,
-    by the unit's name in lower case without blanks. unit : this program's.
+    standard : CF standard names. names : of variables, lower case. unit : this program's, "" of times. also : further
+    names of that unit, in lower case.
     """
 
     standard: tuple[str, ...]
     names: tuple[str, ...]
-    units: Mapping[str, tuple[float, float]]
     unit: str
+    also: tuple[str, ...] = ()
 
-
-def _units(*groups: tuple[str, float, float]) -> dict[str, tuple[float, float]]:
-    return {name: (factor, offset) for names, factor, offset in groups for name in names.split()}
-
-
-_METRES = _units(("m metre metres meter meters", 1.0, 0.0), ("cm", 0.01, 0.0), ("km", 1000.0, 0.0))
-_DBAR = _units(("dbar decibar decibars db", 1.0, 0.0), ("bar", 10.0, 0.0), ("pa", 1e-4, 0.0), ("kpa", 0.1, 0.0))
-_CELSIUS = _units(
-    ("degc deg_c degree_c degrees_c celsius degree_celsius degrees_celsius degreec degreesc °c c", 1.0, 0.0),
-    ("k kelvin degree_kelvin", 1.0, -273.15),
-)
-_SIEMENS = _units(("s/m sm-1 s.m-1", 1.0, 0.0), ("ms/cm mscm-1 mmho/cm", 0.1, 0.0), ("us/cm uscm-1", 1e-4, 0.0))
-_PRACTICAL = _units(("1 psu pss pss-78 pss78 1e-3 0.001 10^-3 ppt o/oo g/kg gkg-1 unitless dimensionless", 1.0, 0.0))
-_GRAM = _units(("g/kg gkg-1 g.kg-1", 1.0, 0.0), ("kg/kg kgkg-1 kg.kg-1", 1000.0, 0.0))
-_DENSE = _units(("kg/m3 kgm-3 kg.m-3 kg/m^3", 1.0, 0.0), ("g/cm3 gcm-3", 1000.0, 0.0), ("g/m3 g/m^3 gm-3", 0.001, 0.0))
-_SPEED = _units(
-    ("m/s ms-1 m.s-1 ms^-1 meter/sec meters/second", 1.0, 0.0),
-    ("cm/s cms-1 cm.s-1", 0.01, 0.0),
-    ("knot knots kn kt", KNOT, 0.0),
-    ("mm/s mms-1", 0.001, 0.0),
-)
-_DEGREES = _units(
-    ("degrees_north degree_north degrees_n degrees_east degree_east degrees_e degrees degree deg", 1.0, 0.0)
-)
 
 QUANTITIES: dict[str, Quantity] = {
     "depth": Quantity(
-        ("depth", "altitude", "height"), ("depth", "deph", "z", "bindepth", "depth_m", "lev", "level"), _METRES, "m"
+        ("depth", "altitude", "height"), ("depth", "deph", "z", "bindepth", "depth_m", "lev", "level"), "m"
     ),
     "pressure": Quantity(
         ("sea_water_pressure", "sea_water_pressure_due_to_sea_water"),
-        ("pressure", "pres", "ctd_pressure", "ctdprs", "pressure_dbar"), _DBAR, "dbar",
+        ("pressure", "pres", "ctd_pressure", "ctdprs", "pressure_dbar"), "dbar",
     ),
     "temperature": Quantity(
         ("sea_water_temperature",),
-        ("temperature", "temp", "ctd_temperature", "ctdtmp", "temperature_degc"), _CELSIUS, "degC",
+        ("temperature", "temp", "ctd_temperature", "ctdtmp", "temperature_degc"), "degC",
     ),
     "potential_temperature": Quantity(
-        ("sea_water_potential_temperature",), ("thetao", "potemp", "theta"), _CELSIUS, "degC"
+        ("sea_water_potential_temperature",), ("thetao", "potemp", "theta"), "degC"
     ),
     "conservative_temperature": Quantity(
-        ("sea_water_conservative_temperature",), ("conservative_temperature",), _CELSIUS, "degC"
+        ("sea_water_conservative_temperature",), ("conservative_temperature",), "degC"
     ),
     "salinity": Quantity(
         ("sea_water_practical_salinity", "sea_water_salinity"),
-        ("salinity", "psal", "sal", "ctd_salinity", "ctdsal", "so", "practical_salinity"), _PRACTICAL, "1",
+        ("salinity", "psal", "sal", "ctd_salinity", "ctdsal", "so", "practical_salinity"), "1", ("g/kg", "gkg-1"),
     ),
     "absolute_salinity": Quantity(
-        ("sea_water_absolute_salinity",), ("absolute_salinity", "absolute_salinity_g_kg"), _GRAM, "g/kg"
+        ("sea_water_absolute_salinity",), ("absolute_salinity", "absolute_salinity_g_kg"), "g/kg"
     ),
     "conductivity": Quantity(
-        ("sea_water_electrical_conductivity",), ("conductivity", "cndc", "conductivity_s_m"), _SIEMENS, "S/m"
+        ("sea_water_electrical_conductivity",), ("conductivity", "cndc", "conductivity_s_m"), "S/m"
     ),
-    "density": Quantity(("sea_water_density",), ("density", "dens", "density_kg_m3"), _DENSE, "kg/m3"),
+    "density": Quantity(("sea_water_density",), ("density", "dens", "density_kg_m3"), "kg/m3"),
     "east": Quantity(
         ("eastward_sea_water_velocity",),
-        ("ucur", "uo", "ewct", "current_east", "current_east_m_s", "east", "u"), _SPEED, "m/s",
+        ("ucur", "uo", "ewct", "current_east", "current_east_m_s", "east", "u"), "m/s",
     ),
     "north": Quantity(
         ("northward_sea_water_velocity",),
-        ("vcur", "vo", "nsct", "current_north", "current_north_m_s", "north", "v"), _SPEED, "m/s",
+        ("vcur", "vo", "nsct", "current_north", "current_north_m_s", "north", "v"), "m/s",
     ),
     "up": Quantity(
-        ("upward_sea_water_velocity",), ("wcur", "current_up", "current_up_m_s", "up", "w"), _SPEED, "m/s"
+        ("upward_sea_water_velocity",), ("wcur", "current_up", "current_up_m_s", "up", "w"), "m/s"
     ),
-    "latitude": Quantity(("latitude",), ("latitude", "lat"), _DEGREES, "deg"),
-    "longitude": Quantity(("longitude",), ("longitude", "lon"), _DEGREES, "deg"),
-    "time": Quantity(("time",), ("time", "juld"), {}, ""),
+    "latitude": Quantity(("latitude",), ("latitude", "lat"), "deg"),
+    "longitude": Quantity(("longitude",), ("longitude", "lon"), "deg"),
+    "time": Quantity(("time",), ("time", "juld"), ""),
 }  # fmt: skip
 
-_YEARS = (-8520336000.0, 7258118400.0)  # 1700 and 2200, s since 1970, as for tables; what lies beyond marks a gap
 _CALENDARS = ("standard", "gregorian", "proleptic_gregorian")  # those whose days are the days of logs
 _FRAMES = ("coord_sys", "coordinate_system", "coord_system", "velocity_frame", "reference_frame")
 _NOT_EARTH = ("beam", "inst", "ship", "xyz", "head", "principal", "streamwise")
@@ -211,7 +188,9 @@ class NcFile:
             what = f"{variable.name}: units = {units!r}, calendar = {calendar!r}"
             raise InputError(self.path, f"{what}; needed are times as 'days since 1950-01-01'") from None
         seconds = since_1970 + raw.filled(np.nan) * (one - zero).total_seconds()
-        return np.where((seconds >= _YEARS[0]) & (seconds <= _YEARS[1]), seconds, np.nan)
+        return np.where(
+            (seconds >= FIRST_SECOND) & (seconds < LAST_SECOND), seconds, np.nan
+        )  # beyond are marks of gaps
 
     def numbers(self, variable: Any) -> Any:
         """The values of a variable as they stand, masked where the file has none; InputError where too many."""
@@ -227,11 +206,13 @@ class NcFile:
             if told.unit != "1":
                 self._remark(f"{variable.name} has no units; {told.unit} is taken")
             return 1.0, 0.0
-        key = unit.lower().replace(" ", "")
-        key = key if key in told.units else key.split("(")[0]
-        if key not in told.units:
-            raise InputError(self.path, f"{variable.name} is in {unit!r}, allowed: {', '.join(told.units)}")
-        return told.units[key]
+        si = "Pa" if told.unit == "dbar" else told.unit
+        known = conversion_to(si, unit) or conversion_to(si, unit.split("(")[0])
+        if known is None and unit.lower().replace(" ", "") not in told.also:
+            raise InputError(self.path, f"{variable.name} is in {unit!r}, allowed: {', '.join(names_of(si))}")
+        if known is None:
+            return 1.0, 0.0
+        return (known.factor / DBAR, 0.0) if si == "Pa" else known
 
     def _remark(self, line: str) -> None:
         if line not in self.remarks:

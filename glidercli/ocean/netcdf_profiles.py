@@ -23,7 +23,7 @@ from glidercli.ocean.netcdf_layout import MAIN, Layout, layout_of, main_of
 from glidercli.ocean.pings import PING_VARIABLES, currents_of_pings, is_pings, pings_of
 from glidercli.ocean.place import Place
 from glidercli.ocean.series import Moment
-from glidercli.ocean.source import left_out
+from glidercli.ocean.source import left_out, listed
 from glidercli.ocean.together import gaps_of, overturns_of
 
 __all__ = ["netcdf_casts", "netcdf_currents"]
@@ -36,6 +36,7 @@ Dropped = tuple[tuple[str, int], ...]
 _FEW = "in a profile of fewer than two usable samples"
 _AGAIN = "in a profile of a further sampling at the same time"
 _NO_TIME = "in a profile without a time"
+_ZIGZAG = "in a profile whose depth goes up and down"
 
 
 def netcdf_casts(path: Path, latitude: float | None, longitude: float | None) -> tuple[Cast, ...]:
@@ -61,6 +62,7 @@ def netcdf_casts(path: Path, latitude: float | None, longitude: float | None) ->
         remarks = tuple(file.remarks)
     casts: list[Cast] = []
     lost: list[Dropped] = []
+    zigzag: list[str] = []
     for i in range(layout.profiles):
         rows = {name: column.values[i] for name, column in columns.items()}
         water = _water(path, rows, places[i])
@@ -68,7 +70,14 @@ def netcdf_casts(path: Path, latitude: float | None, longitude: float | None) ->
         kept = inside.copy()
         dropped = counted([("flagged bad", bad[i])], kept)
         kept, more = usable(water, kept)
-        order, repeated = _by_depth(path, water, kept, i)
+        order, repeated = _by_depth(water, kept)
+        if order is None:
+            if layout.profiles == 1:
+                raise InputError(path, "its depth goes up and down; a profile goes one way")
+            moment = _moment(times[i])
+            zigzag.append(f"profile {i}" + (f", {moment.text}" if moment else ""))
+            lost += [dropped, ((_ZIGZAG, int(kept.sum())),)]
+            continue
         dropped += more + repeated
         timed = layout.profiles == 1 or np.isfinite(times[i])
         if len(order) < 2 or not timed or again[i]:
@@ -77,6 +86,10 @@ def netcdf_casts(path: Path, latitude: float | None, longitude: float | None) ->
             continue
         cast = cast_of(water.rows(order), places[i], path, moment=_moment(times[i]), dropped=dropped)
         casts.append(dataclasses.replace(cast, warnings=_about(water, places[i])))
+    if zigzag:
+        told = listed(tuple(zigzag), 5)
+        line = f"{len(zigzag)} of {layout.profiles} profiles left out, whose depth goes up and down: {told}"
+        remarks = (line, *remarks)
     remarks += gaps_of([cast.depth for cast in casts], "sample") + overturns_of([cast.density for cast in casts])
     return _finished(path, casts, lost, remarks, "samples")
 
@@ -220,15 +233,18 @@ def _water(path: Path, rows: dict[str, Array], place: Place) -> Measured:
     return water.checked(path, names)
 
 
-def _by_depth(path: Path, water: Measured, kept: Mask, number: int) -> tuple[NDArray[np.intp], Dropped]:
-    """Kept samples from the top down, and how many repeat a depth; the file may have them from the bottom up."""
+def _by_depth(water: Measured, kept: Mask) -> tuple[NDArray[np.intp] | None, Dropped]:
+    """Kept samples from the top down, and how many repeat a depth; the file may have them from the bottom up.
+
+    None where depth goes both ways.
+    """
     axis = water.depth if water.depth is not None else water.pressure_dbar
     assert axis is not None
     order = np.flatnonzero(kept)
     steps = np.diff(axis[order])
     if len(steps) and (steps < 0.0).any():
         if (steps > 0.0).any():
-            raise InputError(path, f"profile {number}: its depth goes up and down; a profile goes one way")
+            return None, ()
         order = order[::-1]
     again = np.concatenate([[False], np.diff(axis[order]) == 0.0]) if len(order) else np.zeros(0, dtype=bool)
     return order[~again], (("repeated depth", int(again.sum())),) if again.any() else ()

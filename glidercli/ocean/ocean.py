@@ -15,6 +15,7 @@ from glidercli.ocean.cast import Cast
 from glidercli.ocean.current import CurrentProfile
 from glidercli.ocean.profile import Profile, in_time, pchip
 from glidercli.ocean.reaching import Knots, completed
+from glidercli.ocean.series import no_start
 from glidercli.ocean.water import Sea, Water, at_depth
 from glidercli.units import DBAR, STANDARD_GRAVITY
 
@@ -184,10 +185,8 @@ def _times(profiles: Sequence[Cast | CurrentProfile], start_ns: int | None) -> l
     for profile in profiles:
         seconds = 0.0 if profile.moment is None else profile.moment.since(start_ns)
         if seconds is None:
-            raise InputError(
-                profile.source, "its profiles have times in UTC, and the flight has none: start_time in a mission, "
-                "--controls or --initial with a dated log, or elapsed_s in a table is needed"
-            )  # fmt: skip
+            assert profile.moment is not None  # a single profile has 0 s
+            raise no_start(profile.source, "profile", profile.moment)
         times.append(seconds)
     return times
 

@@ -12,7 +12,7 @@ import numpy as np
 from glidercli.errors import InputError
 from glidercli.ocean.table import Table
 
-__all__ = ["Moment", "parts", "utc_seconds"]
+__all__ = ["Moment", "no_start", "parts", "utc_seconds"]
 
 
 class Moment(NamedTuple):
@@ -43,6 +43,16 @@ def utc_seconds(text: str) -> float | None:
     except ValueError:
         return None
     return (told if told.tzinfo else told.replace(tzinfo=datetime.UTC)).timestamp()
+
+
+def no_start(source: object, what: str, first: Moment) -> InputError:
+    """Profiles have times in UTC and the flight has no start: what is to be done. what : as "cast". first : a time."""
+    return InputError(
+        source,
+        f"its {what}s have times in UTC, from {first.text} on, and the flight has no start time to place them by: "
+        f"write start_time = {first.text} (or when it starts) into a mission file; or fly --controls or --initial of a "
+        f"recorded log; or give one {what} alone, which holds throughout",
+    )
 
 
 def parts(table: Table) -> list[tuple[Moment | None, Table]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from glidercli.errors import InputError
-from glidercli.files import readable_file
+from glidercli.files import is_utf16, readable_file
 from glidercli.gzipped import unpacked
 
 __all__ = ["left_out", "listed", "read_text"]
@@ -28,6 +28,8 @@ def read_text(path: Path, expected: str) -> str:
     data, whole = unpacked(path, data)
     if not whole:
         raise InputError(path, "is a damaged gzip file: cut short, or with wrong bytes")
+    if is_utf16(data):
+        raise InputError(path, "is text in UTF-16; save it in UTF-8 (iconv -f UTF-16 -t UTF-8 OLD > NEW)")
     if data.translate(None, _NOT_TEXT) != data:
         raise InputError(path, f"is not a text file; {expected}")
     try:

@@ -17,19 +17,36 @@ from glidercli.errors import InputError
 from glidercli.ocean.source import listed
 from glidercli.origins import column_name, origins
 
-__all__ = ["Table", "TooFewError", "parse_table"]
+__all__ = ["Table", "TooFewError", "UnusableError", "ZigzagError", "parse_table"]
 
 Array = NDArray[np.float64]
 
 _ASIDE = ("time_utc", "elapsed_s", "origin")  # columns of any table that hold no channel
 
 
-class TooFewError(InputError):
-    """Fewer than two rows of a profile can be used. what : the message without the file's name."""
+class UnusableError(InputError):
+    """Nothing can be made of a profile, which says nothing of others in the file.
+
+    what : the message without the file's name. fault : what is the matter, said of a profile.
+    """
+
+    fault = ""
 
     def __init__(self, where: object, what: str) -> None:
         super().__init__(where, what)
         self.what = what
+
+
+class TooFewError(UnusableError):
+    """Fewer than two rows of a profile can be used."""
+
+    fault = "with fewer than two usable rows"
+
+
+class ZigzagError(UnusableError):
+    """A profile does not grow deeper from row to row."""
+
+    fault = "whose depth does not grow from row to row"
 
 
 @dataclass(frozen=True)
@@ -91,11 +108,11 @@ class Table:
         return Table(self.path, tuple(self.lines[i] for i in chosen), cells)
 
     def increasing(self, column: str, low: float, high: float) -> Array:
-        """A column, (n,), of numbers from low to high that grow from row to row; else InputError."""
+        """A column, (n,), of numbers from low to high that grow from row to row; else InputError, or ZigzagError."""
         values = self.numbers(column, low, high)
         for i in np.flatnonzero(np.diff(values) <= 0.0):
             fault = "repeats" if values[i + 1] == values[i] else "comes after"
-            raise InputError(
+            raise ZigzagError(
                 self.path,
                 f"line {self.lines[i + 1]}: {column} = {values[i + 1]:g} {fault} {values[i]:g}; "
                 "a profile must grow deeper from row to row",

@@ -14,7 +14,7 @@ from glidercli.ocean.cnv import is_cnv
 from glidercli.ocean.current import EXPECTED_CURRENT, CurrentProfile, check_earth, current_of_table
 from glidercli.ocean.series import parts
 from glidercli.ocean.source import listed, read_text
-from glidercli.ocean.table import Table, TooFewError, parse_table
+from glidercli.ocean.table import Table, UnusableError, parse_table
 
 __all__ = ["table_currents", "text_casts"]
 
@@ -39,29 +39,28 @@ def table_currents(path: Path) -> tuple[CurrentProfile, ...]:
 
 
 def _of_parts(table: Table, profile: Callable[[Table], P]) -> tuple[P, ...]:
-    """The profiles of a table; of several those of fewer than two usable rows are left out, and told on the first one.
+    """The profiles of a table; of several those that nothing can be made of are left out, and told on the first one.
 
     Raises InputError where none is left.
     """
     given = parts(table)
     found: list[P] = []
-    few: list[tuple[str, int]] = []
-    first: TooFewError | None = None
+    lost: list[tuple[UnusableError, str, int]] = []
     for moment, part in given:
         try:
             found.append(dataclasses.replace(profile(part), moment=moment))
-        except TooFewError as fault:
-            first = first or fault
+        except UnusableError as fault:
+            if len(given) == 1:
+                raise
             when = "" if moment is None else f", {moment.text}"
-            few.append((f"line {part.lines[0]}{when}", len(part)))
-    if first is not None and len(given) == 1:
-        raise first
-    if first is not None and not found:
-        raise InputError(table.path, f"none of its {len(given)} profiles has two usable rows; the first: {first.what}")
-    if few:
-        told = listed(tuple(where for where, _ in few), 5)
-        line = f"{len(few)} of {len(given)} profiles left out, with fewer than two usable rows each: {told}"
-        reason = ("in a profile of fewer than two usable rows", sum(rows for _, rows in few))
+            lost.append((fault, f"line {part.lines[0]}{when}", len(part)))
+    if not found:
+        raise InputError(table.path, f"none of its {len(given)} profiles can be used; the first: {lost[0][0].what}")
+    for what in dict.fromkeys(fault.fault for fault, _, _ in reversed(lost)):
+        same = [(where, rows) for fault, where, rows in lost if fault.fault == what]
+        told = listed(tuple(where for where, _ in same), 5)
+        line = f"{len(same)} of {len(given)} profiles left out, {what}: {told}"
+        reason = (f"in a profile {what}", sum(rows for _, rows in same))
         found[0] = dataclasses.replace(
             found[0], dropped=(reason, *found[0].dropped), warnings=(line, *found[0].warnings)
         )

@@ -31,6 +31,8 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import ConfigDict, Discriminator, Field, Tag, model_validator
 from pydantic.dataclasses import dataclass
 
+from glidercli.years import FIRST_YEAR, LAST_YEAR
+
 __all__ = [
     "KINDS", "ActuatorChanges", "Climb", "ControlsLeg", "Dive", "Drift", "HoldHeading", "Mission", "MissionLeg",
     "Repeat", "Spiral", "Steering", "Targets", "Wait", "flat", "places",
@@ -39,7 +41,7 @@ __all__ = [
 _CONFIG = ConfigDict(extra="forbid", strict=False)
 LONGEST = 1e8  # s, three years: more than any battery lasts; times are kept to 1e-8 s up to there
 MOST_LEGS = 100_000
-_YEARS = (1700, 2200)  # times are kept in ns of 64 bits, which hold 1678 to 2261
+_YEARS = (FIRST_YEAR, LAST_YEAR - 5)  # of the start: the longest flight then ends before the last time allowed
 
 
 def _number(least: float, most: float) -> Any:

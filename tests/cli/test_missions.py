@@ -129,7 +129,7 @@ def test_the_actuators_of_a_mission_are_the_missions(glider: Run, tmp_path: Path
         ("sped = 3\n" + DIVE, ("sped is unknown", "start_depth_m")),
         ("[steering]\ngain = 3.0\n" + DIVE, ("gain is unknown", "heading_gain")),
         (DIVE.replace("until_depth_m = 100.0", "turns = 3.0"), ("leg 1 (dive)", "goes straight", "until_depth_m")),
-        ("start_time = 9999-01-01T00:00:00Z\n" + DIVE, ("start_time = 9999", "1700 to 2200")),
+        ("start_time = 9999-01-01T00:00:00Z\n" + DIVE, ("start_time = 9999", "1700 to 2195")),
         ("start_depth_m = 200.0\n" + DIVE, ("leg 1 (dive)", "200.0 m", "beyond its end")),
         (
             "[actuators]\nmass_position_min_m = 0.5\nmass_position_max_m = 0.4\n" + DIVE,

@@ -21,7 +21,7 @@ LOGS = ROOT / "logs/seaexplorer-sea035"
 
 def test_json_has_the_contracts_form(glider_json: Callable[..., Any]) -> None:
     document = glider_json("replay", LOGS, "-o", "a.mcap")
-    assert set(document) == {"files", "channels", "outputs"}
+    assert set(document) == {"files", "channels", "outputs", "part", "passed_over"}
     for entry in document["files"]:
         assert {"path", "format", "records", "kept", "dropped", "warnings"} <= set(entry)
         assert entry["records"] == entry["kept"] + sum(item["count"] for item in entry["dropped"])

@@ -77,7 +77,11 @@ def test_casts_without_a_time_or_of_the_same_time_are_refused(glider: Run, tmp_p
     )
     one_line_error(glider("simulate", *HELD, "--ctd", "a.csv", "--ctd", "b*.csv"), "b*.csv: no file matches")
     cast(tmp_path / "b.csv", "2020-05-01T07:00:00Z")
-    one_line_error(glider("simulate", *HELD, "--ctd", "a.csv", "--ctd", "b.csv"), "times in UTC", "start_time")
+    one_line_error(
+        glider("simulate", *HELD, "--ctd", "a.csv", "--ctd", "b.csv"),
+        "its casts have times in UTC, from 2020-05-01T06:00:00Z",
+        "write start_time = 2020-05-01T06:00:00Z",
+    )
     (tmp_path / "empty").mkdir()
     one_line_error(glider("simulate", *HELD, "--ctd", "empty"), "empty: holds no log")
 

@@ -1,4 +1,4 @@
-"""What Logs may there be? Random ones for round trips, and what it means that one came back."""
+"""What Logs may there be? Random ones for round trips, absurd ones, and what it means that one came back."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from hypothesis import strategies as st
 
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.log import Channel, Event, Log
+from glidercli.logio.plausible import quantity_of
 
 SPECIAL = [0.0, -0.0, 5e-324, -2.2e-310, 1e300, -1e300, 9.969209968386869e36, -9999.0, 1.0 / 3.0]
 FINITE = st.sampled_from(SPECIAL) | st.floats(allow_nan=False, allow_infinity=False, max_value=1e300, min_value=-1e300)
 TIMES = st.integers(-(2**62), 2**62)
 """1823 to 2116, before 1970 too."""
-AFTER_1970 = st.integers(0, 2**63 - 1)
+AFTER_1970 = st.integers(0, int(np.datetime64("2200-01-01", "ns").astype(np.int64)) - 1)
 ORIGINS = st.sampled_from(["measured", "derived", "simulated", "reconstruction"])
 KEYS = st.sampled_from(["title", "provenance", "platform", "vehicle_reference"]) | st.text(max_size=5)
 TEXTS = st.sampled_from(
@@ -20,13 +21,26 @@ TEXTS = st.sampled_from(
 ) | st.text(max_size=9)
 
 
+def possible(name: str) -> st.SearchStrategy[float]:
+    """Values of a channel that a reader takes, the ends of its range among them."""
+    if name == "phase":
+        return st.integers(0, len(PHASES) - 1).map(float)
+    low, high = quantity_of(name).low, quantity_of(name).high
+    # a thousandth short of the ends, which units of tables round
+    inside = st.floats(low + 1e-3 * abs(low), high - 1e-3 * abs(high), allow_nan=False)
+    return st.sampled_from([value for value in SPECIAL if low <= value <= high] or [low]) | inside
+
+
 @st.composite
-def logs(draw: st.DrawFn, times: st.SearchStrategy[int] = TIMES, sampled: bool = False) -> Log:
-    """Channels with times of their own out of a few, some shared. sampled : every channel has a sample."""
+def logs(draw: st.DrawFn, times: st.SearchStrategy[int] = TIMES, sampled: bool = False, absurd: bool = False) -> Log:
+    """Channels with times of their own out of a few, some shared. sampled : every channel has a sample.
+
+    absurd : values may be any finite number, not those alone that a channel can have.
+    """
     pool = draw(st.lists(times, min_size=1, max_size=8, unique=True))
     channels = {}
     for name in draw(st.lists(st.sampled_from(list(CHANNELS)), unique=True, max_size=8)):
-        values = st.integers(0, len(PHASES) - 1).map(float) if name == "phase" else FINITE
+        values = FINITE if absurd and name != "phase" else possible(name)
         samples = draw(st.dictionaries(st.sampled_from(pool), values, min_size=int(sampled), max_size=8))
         at = np.array(sorted(samples), np.int64)
         channels[name] = Channel(name, at, np.array([samples[t] for t in at.tolist()]), draw(ORIGINS))

@@ -132,6 +132,57 @@ def test_german_text_with_lines_before_the_names(tmp_path: Path) -> None:
     assert report.warnings == ()
 
 
+def test_the_line_that_is_shown_is_that_of_the_file(tmp_path: Path) -> None:
+    """Lines before the names, rows of another length, blank lines and cells of two lines count as lines."""
+    mapping = MAPPING.replace("[file]", "[file]\nskip_lines = 2")
+    rows = [ROWS[0], "cut,1", "", '"2020-01-01T00:00:01Z",1,"\n2",3', "soon,1,2,3", "2020-01-01T00:00:06Z,deep,1,2"]
+    path = table(tmp_path, *rows, head="a\nb\nt,Depth,p,P", mapping=mapping)
+    lines = path.read_text().split("\n")
+    _, report = read_one(path)
+    time, number = report.warnings
+    assert number.endswith(f"line {lines.index(rows[-1]) + 1}: 'deep'")
+    assert time.startswith(f"t: 1 times cannot be read, the first in line {lines.index('soon,1,2,3') + 1}: 'soon'; ")
+    assert time.endswith('; [time] format = "iso" does not fit')
+
+
+def test_a_file_without_a_time_that_can_be_read_shows_the_first(tmp_path: Path, glider: Run) -> None:
+    path = table(tmp_path, "01/03/2020,1,2,3", "02/03/2020,1,2,3")
+    said = "t: 2 times cannot be read, the first in line 2: '01/03/2020'; [time] format = \"iso\" does not fit"
+    one_line_error(glider("info", path), "no usable record: 2 time cannot be read", said)
+
+
+def test_decimal_commas_and_semicolons_are_named(tmp_path: Path, glider: Run) -> None:
+    cells = ["2020-01-01T00:00:00Z;1,5;2,5;3", "2020-01-01T00:00:01Z;1,5;2,5;4"]
+    path = table(tmp_path, *cells, head="t;Depth;p;P")
+    one_line_error(glider("info", path), 'has its columns separated by ;: [file] separator = ";" is needed')
+    path.with_suffix(".toml").write_text(MAPPING.replace("[file]", '[file]\nseparator = ";"'))
+    done = glider("info", path)
+    shown = " ".join(done.stdout.split())
+    hint = "Depth: 2 cells left out that are no number, the first in line 2: '1,5' (a decimal comma? [file] decimal = \",\""
+    assert hint in shown
+    assert max(map(len, done.stdout.splitlines())) <= 80
+
+
+def test_utf_16_is_named_and_read_where_the_mapping_says_so(tmp_path: Path) -> None:
+    path = table(tmp_path, *ROWS)
+    path.write_bytes(path.read_text().encode("utf-16"))
+    with pytest.raises(
+        InputError, match=r'is no text in utf-8; it is in UTF-16, which \[file\] encoding = "utf-16" reads'
+    ):
+        read([path])
+    path.with_suffix(".toml").write_text(MAPPING.replace("[file]", '[file]\nencoding = "utf-16"'))
+    assert read_one(path)[0]["depth"].values.tolist() == [0.5, 1.5, 2.5, 3.5, 4.5]
+
+
+def test_lines_that_end_in_cr_alone_are_counted(tmp_path: Path) -> None:
+    path = table(tmp_path, *ROWS, "soon,1,2,3", head="before\nt,Depth,p,P")
+    path.write_bytes(path.read_bytes().replace(b"\n", b"\r"))
+    path.with_suffix(".toml").write_text(MAPPING.replace("[file]", "[file]\nskip_lines = 1"))
+    log, report = read_one(path)
+    assert len(log["depth"]) == 5
+    assert "in line 8: 'soon'" in report.warnings[0]
+
+
 def test_scale_offset_and_phases(tmp_path: Path) -> None:
     mapping = MAPPING.replace('unit = "deg" }', 'unit = "deg", scale = -2.0, offset = 1.0 }').replace(
         "[missing]", 'phase = { column = "mode", phases = { D = "dive", C = "climb" } }\n[missing]'
@@ -174,8 +225,8 @@ def test_each_trap_is_dropped_by_name(tmp_path: Path, row: str, reason: str) -> 
 @pytest.mark.parametrize(
     ("row", "words"),
     [
-        ("2020-01-01T00:00:05Z,x,2,3", "Depth: 1 cells left out that are no number"),
-        ("2020-01-01T00:00:05Z,inf,2,3", "Depth: 1 cells left out that are no number"),
+        ("2020-01-01T00:00:05Z,x,2,3", "Depth: 1 cells left out that are no number, the first in line 7: 'x'"),
+        ("2020-01-01T00:00:05Z,inf,2,3", "Depth: 1 cells left out that are no number, the first in line 7: 'inf'"),
         ("2020-01-01T00:00:05Z,-9999,2,3", "Depth: 1 cells of 9999 or -9999 left out, no value"),
         ("2020-01-01T00:00:05Z,1e308,2,3", "Depth: 1 values outside -10..12000 m left out"),
         ("2020-01-01T00:00:05Z,1,200,3", "p: 1 values outside -1.5708..1.5708 rad left out"),
@@ -280,7 +331,7 @@ def test_a_wrong_column_lists_those_there_are(tmp_path: Path, glider: Run) -> No
     [
         (b"", "is empty"),
         (b"\n", "line 1 holds no names of columns"),
-        (b"t,Depth,p,P\n2020-01-01T00:00:00Z,\xff\xfe,2,3\n", "is no table of text in utf-8"),
+        (b"t,Depth,p,P\n2020-01-01T00:00:00Z,\xff\xfe,2,3\n", "is no text in utf-8"),
         (b"t,Depth,p,P\n", "no usable record"),
         (b"t,Depth,p,P,P\n", "has the column P twice"),
         (b"PAR1 and no more", "is Parquet data that cannot be read"),

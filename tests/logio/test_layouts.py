@@ -40,7 +40,9 @@ def described(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     log = LOGS["full"]()
     fixed = {name: log[name].__class__(name, log[name].time_ns, log[name].values) for name in ("latitude", "longitude")}
     log = log.with_channels(*fixed.values()).with_metadata(origin_latitude_deg="20", origin_longitude_deg="115")
-    log = log.with_metadata(depth_averaged_current_north_m_s="0.1", depth_averaged_current_east_m_s="0.2", bottom_depth_m="90")
+    log = log.with_metadata(
+        depth_averaged_current_north_m_s="0.1", depth_averaged_current_east_m_s="0.2", bottom_depth_m="90"
+    )
     write_mcap(log, path)
     with path.open("rb") as stream:
         summary = make_reader(stream).get_summary()

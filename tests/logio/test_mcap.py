@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mcap.reader import make_reader
+from random_logs import AFTER_1970, possible
 
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import InputError, OutputError
@@ -21,6 +22,7 @@ from glidercli.logio.mcap import contents as mcap_contents
 from glidercli.logio.mcap import writer as mcap_writer
 from glidercli.logio.mcap.reader import is_mcap, read_mcap_log
 from glidercli.logio.mcap.writer import write_mcap
+from glidercli.logio.plausible import quantity_of
 
 START = 1_313_000_000_123_456_789
 DATA = Path(__file__).parents[1] / "data" / "mcap"
@@ -31,7 +33,8 @@ def full_log(n: int = 2000, origin: str = "simulated") -> Log:
     """Every channel at n times, by turns 1 s and 1 s + 1 ns apart; with events."""
     times = START + np.cumsum(1_000_000_000 + np.arange(n) % 2)
     random = np.random.default_rng(7)
-    values = {name: random.normal(size=n) for name in CHANNELS}
+    bounds = {name: quantity_of(name) for name in CHANNELS}
+    values = {name: random.uniform(bound.low, bound.high, n) for name, bound in bounds.items()}
     values["phase"] = random.integers(0, len(PHASES), n).astype(float)
     values["latitude"], values["longitude"] = 20.0 + 1e-5 * np.arange(n), 115.0 + 1e-5 * np.arange(n)
     channels = {name: Channel(name, times, values[name], origin) for name in CHANNELS}
@@ -49,7 +52,7 @@ def assert_same(back: Log, log: Log) -> None:
     assert (back.origin, back.metadata, back.events) == (log.origin, dict(log.metadata), log.events)
 
 
-TIMES = st.integers(0, 2**63 - 1)
+TIMES = AFTER_1970
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 ORIGINS = st.sampled_from(["measured", "derived", "simulated", "reconstruction"])
 EVENTS = st.lists(st.builds(Event, st.text(max_size=8), TIMES, st.none() | FINITE), max_size=4)
@@ -62,7 +65,7 @@ def logs(draw: st.DrawFn) -> Log:
     pool = draw(POOLS)
     channels = {}
     for name in draw(st.lists(st.sampled_from(list(CHANNELS)), unique=True)):
-        samples = draw(st.dictionaries(st.sampled_from(pool), FINITE, max_size=8))
+        samples = draw(st.dictionaries(st.sampled_from(pool), possible(name), max_size=8))
         times = np.array(sorted(samples), np.int64)
         channels[name] = Channel(name, times, np.array([samples[t] for t in times.tolist()]), draw(ORIGINS))
     events = tuple(sorted(draw(EVENTS), key=lambda event: event.time_ns))

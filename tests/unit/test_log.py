@@ -37,9 +37,7 @@ def test_table_is_the_union_of_times_and_interpolates_nothing() -> None:
     assert table["elapsed_s"].tolist() == [0.0, 1.0, 2.0]
     assert table["depth_m"].isna().tolist() == [False, False, True]
     assert table["pitch_deg"].isna().tolist() == [True, False, False]
-    back = Log.from_table(table, "measured")
-    np.testing.assert_allclose(back["pitch"].values, [0.1, 0.2], rtol=1e-15)  # degrees and back: two roundings
-    assert back["depth"].time_ns.tolist() == [0, 10**9]
+    np.testing.assert_allclose(table["pitch_deg"][1:], np.degrees([0.1, 0.2]), rtol=1e-15)  # a few roundings
 
 
 def test_slices_are_half_open() -> None:

@@ -6,6 +6,7 @@ import math
 import os
 import struct
 import zlib
+from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, NamedTuple, cast
@@ -16,12 +17,15 @@ from numpy.typing import NDArray
 from glidercli.channels import CHANNELS
 from glidercli.errors import InputError
 from glidercli.files import readable_file
-from glidercli.log import Channel, Event, Log, Origin
+from glidercli.log import Event, Log, Origin
 from glidercli.logio.mcap.file import MAGIC
 from glidercli.logio.mcap.messages import Array, decoded, message_class
 from glidercli.logio.mcap.topics import EVENT_TOPIC, field_names, template_of
 from glidercli.logio.mcap.writer import AT_THE_END, FORMATS
+from glidercli.logio.netcdf.times import FIRST, LAST
+from glidercli.logio.own.rules import channels_of, unusable
 from glidercli.logio.reader import Part
+from glidercli.logio.records import NO_TIME
 from glidercli.logio.report import FileReport
 
 if TYPE_CHECKING:
@@ -57,16 +61,9 @@ def is_mcap(path: Path) -> bool:
 
 
 def read_mcap(path: Path) -> Part:
-    """The file's Log, and its account: a record is a time at which a channel has a sample."""
-    log = read_mcap_log(path)
-    times = [channel.time_ns for channel in log.channels.values()]
-    record_ns = np.unique(np.concatenate(times)) if times else np.array([], np.int64)
-    return Part(log, FileReport(path, "glider-mcap", len(record_ns), len(record_ns)), record_ns)
+    """The Log that `write_mcap` wrote, equal to the last bit, and its account: a record is a time of its messages.
 
-
-def read_mcap_log(path: Path) -> Log:
-    """The Log that `write_mcap` wrote, equal to the last bit: channels, origins, metadata, events.
-
+    Records and values that cannot be used are dropped, left out and counted by the rules of ``own/rules.py``.
     Raises InputError for a file that is no MCAP, was not written by glider, or is cut short or damaged.
     """
     readable_file(path)
@@ -90,13 +87,18 @@ def read_mcap_log(path: Path) -> Log:
             summary = reader.get_summary()
             if summary is None:
                 raise _Damaged("no summary")
-            return _log(notes, _topics(stream, summary))
+            return _part(path, notes, _topics(stream, summary))
     except (
         _Damaged, McapError, zstandard.ZstdError, DecodeError, struct.error, ValueError, KeyError, IndexError, TypeError
     ) as fault:  # fmt: skip
         raise InputError(
             path, "is truncated or damaged; a whole MCAP file is needed (`pymcap-cli recover` may save most of it)"
         ) from fault
+
+
+def read_mcap_log(path: Path) -> Log:
+    """The Log of ``read_mcap``."""
+    return read_mcap(path).log
 
 
 def _check_written_by_glider(path: Path, notes: Notes) -> None:
@@ -162,25 +164,38 @@ def _topics(stream: IO[bytes], summary: Summary) -> dict[str, _Found]:
     return found
 
 
-def _log(notes: Notes, topics: Mapping[str, _Found]) -> Log:
-    """The Log of metadata records and messages."""
-    columns: dict[str, tuple[NDArray[np.int64], Array]] = {}
+def _part(path: Path, notes: Notes, topics: Mapping[str, _Found]) -> Part:
+    """The Log of metadata records and messages. A message at the time of another of its topic is dropped."""
+    told: dict[str, tuple[NDArray[np.int64], Array]] = {}
+    dropped: Counter[str] = Counter()
     for topic, found in topics.items():
         if topic != EVENT_TOPIC and found.records:
-            columns.update(_columns(found))
+            columns, repeated = _columns(found)
+            told.update(columns)
+            dropped.update({"time repeats": repeated} if repeated else {})
     origins = notes["origin"]
-    missing = (np.array([], np.int64), np.array([]))
-    channels = {}
-    for name in origins["channels"].split():
-        time_ns, values = columns.get(field_names(CHANNELS[name])[0], missing)
-        sampled = ~np.isnan(values)
-        channels[name] = Channel(name, time_ns[sampled], values[sampled], cast(Origin, origins[name]))
+    names = {name: field_names(CHANNELS[name])[0] for name in origins["channels"].split()}
+    time_ns = np.unique(np.concatenate([np.array([], np.int64), *(times for times, _ in told.values())]))
+    values = {name: np.full(len(time_ns), np.nan) for name in names}
+    for name, field in names.items():
+        if field in told:
+            times, column = told[field]
+            values[name][np.searchsorted(time_ns, times)] = column
+    records = len(time_ns) + dropped.total()
+    warnings: list[str] = []
+    of_channels = {name: cast(Origin, origins[name]) for name in names}
+    time_ns = np.where((time_ns > FIRST) & (time_ns < LAST), time_ns, NO_TIME)
+    channels, kept_ns = channels_of(time_ns, values, of_channels, dropped, warnings)
     events = _events(topics[EVENT_TOPIC]) if EVENT_TOPIC in topics else ()
-    return Log(channels, cast(Origin, origins["log"]), dict(notes["run"]), events)
+    log = Log(channels, cast(Origin, origins["log"]), dict(notes["run"]), events)
+    error = None if len(kept_ns) or not records else unusable(dropped, warnings)
+    reasons = tuple(sorted(dropped.items()))
+    return Part(log, FileReport(path, "glider-mcap", records, len(kept_ns), reasons, tuple(warnings), error), kept_ns)
 
 
-def _columns(found: _Found) -> dict[str, tuple[NDArray[np.int64], Array]]:
-    """Times and values of each field of a topic, in time order; NaN where there is no sample."""
+def _columns(found: _Found) -> tuple[dict[str, tuple[NDArray[np.int64], Array]], int]:
+    """Times and values of each field of a topic, in time order, NaN where there is no sample; and how many messages
+    repeat a time, of which the first counts."""
     if len(set(map(len, found.records))) != 1:
         raise _Damaged("messages of unequal length")
     rows = np.frombuffer(b"".join(found.records), np.uint8).reshape(len(found.records), -1)
@@ -189,8 +204,9 @@ def _columns(found: _Found) -> dict[str, tuple[NDArray[np.int64], Array]]:
     values = decoded(template, rows[:, _HEAD:], len(names))
     if values is None:
         raise _Damaged("messages that do not fit their schema")
-    order = np.argsort(time_ns, kind="stable")
-    return {name: (time_ns[order], column[order]) for name, column in zip(names, values, strict=True)}
+    times, first = np.unique(time_ns, return_index=True)
+    columns = {name: (times, column[first]) for name, column in zip(names, values, strict=True)}
+    return columns, len(time_ns) - len(times)
 
 
 def _events(found: _Found) -> tuple[Event, ...]:

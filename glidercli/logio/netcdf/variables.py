@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.log import Origin
-from glidercli.logio.named_units import conversion, units_of
+from glidercli.named_units import conversion, units_of
 
 __all__ = ["BAD_PLACE", "COMPUTED", "Values", "attributes", "flags_of", "stored_numbers", "text_of", "values_of"]
 

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, cast, get_args
 
 import numpy as np
+from numpy.typing import NDArray
 
-from glidercli.channels import CHANNELS, PHASES, by_column
+from glidercli.channels import CHANNELS, by_column
 from glidercli.errors import InputError
-from glidercli.log import Channel, Log, Origin
+from glidercli.log import Origin
+from glidercli.logio.own.cells import numbers, phases, times_of_seconds, times_of_texts, times_of_timestamps
 from glidercli.logio.own.csv_metadata import parsed_metadata
 from glidercli.logio.own.parquet_log import METADATA_KEY
-from glidercli.logio.own.table_back import log_of, part_of, without_impossible
+from glidercli.logio.own.table_back import OwnTable, part_of
 from glidercli.logio.reader import Aids, Part
-from glidercli.logio.records import to_ns
 from glidercli.origins import BOTH, column_name, origins
 
 __all__ = ["DAMAGED", "is_own_parquet", "is_parquet", "opened", "read_own_parquet"]
@@ -24,8 +25,6 @@ __all__ = ["DAMAGED", "is_own_parquet", "is_parquet", "opened", "read_own_parque
 MAGIC = b"PAR1"
 DAMAGED = "is Parquet data that cannot be read: damaged or cut short; a whole file is needed"
 _TIMES = ("time_utc", "elapsed_s")
-_EPOCH = "2000-01-01T00:00:00"
-"""Start of a table that has elapsed_s alone, as of a CSV."""
 
 
 def is_parquet(path: Path) -> bool:
@@ -63,15 +62,14 @@ def read_own_parquet(path: Path, aids: Aids = Aids()) -> Part:
     """The Log of a Parquet table.
 
     Of a table that glider wrote times, origins, metadata and events come back exactly, values within the rounding of
-    degrees. Another program's is taken as measured, unless a column named origin says otherwise, with a warning.
-    Raises InputError for times that cannot be read or do not increase, cells that are no number and unknown phases,
-    naming the row (counted from 1).
+    degrees. Another program's is taken as measured, unless a column named origin says otherwise, with a warning. Rows
+    and cells that cannot be used are dropped, left out and counted by the rules of ``rules.py``. Raises InputError for
+    columns of a type that holds no times or numbers, and for an unknown origin.
     """
     columns, metadata, of_fields = _columns(path)
-    table, unknown = _table(path, columns)
-    warnings = [f"columns not known and not used: {', '.join(unknown)}"] if unknown else []
+    warnings: list[str] = []
     word = None
-    if not metadata and "origin" in columns and len(table):
+    if not metadata and columns.get("origin") is not None and len(columns["origin"]):
         cells = enumerate((str(cell or "") for cell in columns["origin"].to_pylist()), 1)
         found = origins(path, cells)
         word = found[0]
@@ -79,21 +77,28 @@ def read_own_parquet(path: Path, aids: Aids = Aids()) -> Part:
             warnings.append(f"origins {', '.join(found)} in one table: all of it is taken as {word}")
         if word == BOTH:
             warnings.append("the table does not say which channels are derived: all are taken as derived")
-    without_impossible(table, metadata, word, warnings)
-    log = log_of(table, metadata, word, "time_utc" in columns, warnings)
-    if not metadata:
-        sampled = {name: channel for name, channel in log.channels.items() if len(channel)}
-        return part_of(path, "glider-parquet", Log(sampled, log.origin, log.metadata), table, {}, warnings, unknown)
-    channels = {name: _with_origin(c, of_fields[CHANNELS[name].column]) for name, c in log.channels.items()}
-    log = Log(channels, log.origin, log.metadata, log.events)
-    return part_of(path, "glider-parquet", log, table, {}, warnings, unknown)
+    told = {}
+    unknown = []
+    for name, column in columns.items():
+        spec = by_column(name)
+        if spec is None:
+            unknown += [] if name in (*_TIMES, "origin") else [name]
+        else:
+            values = phases(_series(column)) if spec.name == "phase" else _numbers(path, name, column)
+            told[spec.name] = values / spec.factor
+    if unknown:
+        warnings.insert(0, f"columns not known and not used: {', '.join(unknown)}")
+    table = OwnTable(
+        path, _times(path, columns), told, "time_utc" in columns, word, tuple(unknown),
+        lambda column, row: f"row {row + 1}: {str(columns[column][row].as_py())[:40]!r}",
+    )  # fmt: skip
+    return part_of(table, "glider-parquet", metadata, warnings, _of_empty(told, of_fields) if metadata else None)
 
 
-def _with_origin(channel: Channel, told: str) -> Channel:
-    """A channel without a sample has its origin in the schema alone."""
-    if len(channel) or told not in get_args(Origin):
-        return channel
-    return Channel(channel.name, channel.time_ns, channel.values, cast(Origin, told))
+def _of_empty(names: Iterable[str], told: Mapping[str, str]) -> dict[str, Origin]:
+    """Origins by channel as the schema tells them; that of a channel without a sample stands nowhere else."""
+    of_columns = {name: told.get(CHANNELS[name].column, "") for name in names}
+    return {name: cast(Origin, word) for name, word in of_columns.items() if word in get_args(Origin)}
 
 
 def _columns(path: Path) -> tuple[dict[str, Any], dict[str, Any], dict[str, str]]:
@@ -116,71 +121,36 @@ def _columns(path: Path) -> tuple[dict[str, Any], dict[str, Any], dict[str, str]
     return columns | {name: None for name in names if name not in columns}, metadata, of_fields
 
 
-def _table(path: Path, columns: dict[str, Any]) -> tuple[Any, list[str]]:
-    """The table that a Log is made of, and the names of columns that are not known."""
+def _series(column: Any) -> Any:
+    """An Arrow column of text as a pandas Series, None where it is null."""
     import pandas as pd
 
-    table = pd.DataFrame({"time_utc": _times(path, columns)})
-    unknown = []
-    for name, column in columns.items():
-        spec = by_column(name)
-        if spec is None:
-            unknown += [] if name in (*_TIMES, "origin") else [name]
-        else:
-            table[name] = _phases(path, column) if spec.name == "phase" else _numbers(path, name, column)
-    return table, unknown
+    return pd.Series(column.cast("string").to_pylist(), dtype=object)
 
 
-def _numbers(path: Path, name: str, column: Any) -> Any:
-    """A column of numbers, NaN where it is null."""
+def _numbers(path: Path, name: str, column: Any) -> NDArray[np.float64]:
+    """A column of numbers, NaN where it is null, infinite where a text is no number."""
     import pyarrow as pa
 
     try:
-        values = column.cast(pa.float64()).to_numpy()
+        if pa.types.is_string(column.type) or pa.types.is_large_string(column.type):
+            return numbers(_series(column))
+        return np.array(column.cast(pa.float64()).to_numpy(), dtype=float)
     except (pa.ArrowException, ValueError):
         raise InputError(path, f"{name} is a column of {column.type}; numbers are needed") from None
-    endless = np.flatnonzero(np.isinf(values))
-    if len(endless):
-        raise InputError(path, f"row {endless[0] + 1}: {name} = {values[endless[0]]}; a finite number is needed")
-    return values
 
 
-def _phases(path: Path, column: Any) -> Any:
-    """A column of phases, None where it is null."""
-    words = np.array(column.to_pylist(), dtype=object)
-    bad = np.flatnonzero([word is not None and word not in PHASES for word in words])
-    if len(bad):
-        raise InputError(path, f"row {bad[0] + 1}: phase = {words[bad[0]]!r}; allowed: {', '.join(PHASES)}")
-    return words
-
-
-def _times(path: Path, columns: dict[str, Any]) -> Any:
-    """Times of the rows, datetime64[ns], UTC."""
-    import pandas as pd
+def _times(path: Path, columns: dict[str, Any]) -> NDArray[np.int64]:
+    """Times of the rows, UTC ns, NO_TIME where one cannot be read."""
     import pyarrow as pa
 
     dated = "time_utc" in columns
     column = columns["time_utc" if dated else "elapsed_s"]
+    if not dated:
+        return times_of_seconds(_numbers(path, "elapsed_s", column))
     try:
-        if not dated:
-            elapsed = column.cast(pa.float64()).to_numpy()
-            elapsed = np.where(np.abs(elapsed) < 5e9, elapsed, np.nan)  # 158 years
-            steps = np.rint(np.where(np.isfinite(elapsed), elapsed, 0.0) * 1e9).astype("timedelta64[ns]")
-            moments = np.datetime64(_EPOCH, "ns") + steps
-            times = np.where(np.isfinite(elapsed), moments, np.datetime64("NaT", "ns"))
-        elif pa.types.is_timestamp(column.type):
-            whole = column.cast(pa.timestamp("ns", column.type.tz)).cast(pa.int64())
-            times = whole.fill_null(np.iinfo(np.int64).min).to_numpy().astype("datetime64[ns]")
-        else:
-            texts = pd.Series(column.cast(pa.string()).to_pylist(), dtype=object)
-            parsed = pd.to_datetime(texts, utc=True, errors="coerce", format="ISO8601").dt.tz_localize(None)
-            times = to_ns(parsed).astype("datetime64[ns]")
+        if pa.types.is_timestamp(column.type):
+            return times_of_timestamps(column)
+        return times_of_texts(_series(column))
     except (pa.ArrowException, ValueError, OverflowError):
         raise InputError(path, f"its times are a column of {column.type}; timestamps or seconds are needed") from None
-    bad = np.flatnonzero(np.isnat(times))
-    if len(bad):
-        raise InputError(path, f"row {bad[0] + 1}: the time cannot be read; a time or seconds are needed")
-    back = np.flatnonzero(np.diff(times) <= np.timedelta64(0, "ns"))
-    if len(back):
-        raise InputError(path, f"row {back[0] + 2}: the time does not increase; rows must be in time order")
-    return times

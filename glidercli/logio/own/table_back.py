@@ -2,87 +2,103 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import dataclasses
+from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
-from glidercli.channels import by_column
+from glidercli.channels import CHANNELS
+from glidercli.errors import InputError
 from glidercli.log import Channel, Log, Origin
-from glidercli.logio.own.csv_metadata import events_of, texts_of
-from glidercli.logio.plausible import quantity_of
+from glidercli.logio.own.cells import ISO_NEEDED, SECONDS_NEEDED
+from glidercli.logio.own.csv_metadata import events_of, stranger, texts_of
+from glidercli.logio.own.rules import Shown, channels_of, unread_times, unusable
 from glidercli.logio.reader import Part
 from glidercli.logio.report import FileReport
 from glidercli.origins import BOTH
 
-__all__ = ["log_of", "part_of", "without_impossible"]
+__all__ = ["OwnTable", "part_of"]
+
+Array = NDArray[np.float64]
+Times = NDArray[np.int64]
 
 
-def log_of(table: Any, metadata: Mapping[str, Any], word: str | None, dated: bool, warnings: list[str]) -> Log:
-    """The Log of a table; a channel may have no sample.
+@dataclasses.dataclass(frozen=True)
+class OwnTable:
+    """A table as it was read.
 
-    table : time_utc (datetime64[ns], increasing) and columns in the contract's names, NaN where there is no sample.
-    metadata : as ``metadata_of`` gave, or nothing where none came with the table. word : what its rows say of their
-    origin, or None. dated : whether the dates are those of the table. warnings : what is assumed is added.
+    time_ns : (n,), UTC ns, NO_TIME where it cannot be read. columns : by channel, (n,), SI; NaN where there is no
+    sample, infinite where a cell is no number. dated : whether the dates are those of the table. word : what its rows
+    say of their origin, or None. cut : rows with another number of fields than there are columns. unknown : names of
+    columns that are not known, with data. shown : a cell, and where it stands.
     """
-    told = texts_of(metadata) if metadata else {}
-    if not dated:
-        told["time_note"] = "the date is arbitrary: the table has elapsed_s alone"
-    if not metadata and word is None:
-        told["origin_note"] = "taken as measured: the table does not say where its values come from"
-        warnings.append(told["origin_note"])
-    other = cast(Origin, "derived" if word == BOTH else word or "measured")
-    origin: Origin = metadata.get("origin", other)
-    of_channels = metadata.get("channels", {})
-    rest = "derived" if word == BOTH else origin
-    log = Log.from_table(table, origin, told)
-    channels = {
-        c.name: Channel(c.name, c.time_ns, c.values, of_channels.get(c.name, rest)) for c in log.channels.values()
-    }
-    return Log(channels, origin, told, events_of(metadata) if metadata else ())
 
-
-def without_impossible(table: Any, metadata: Mapping[str, Any], word: str | None, warnings: list[str]) -> None:
-    """Empty the cells of a measured table of another program that hold what the quantity cannot be, and count them.
-
-    A table that glider wrote, and one that says it is simulated or rebuilt, is left as it is.
-    """
-    if metadata or word not in (None, "measured"):
-        return
-    for name in table.columns:
-        spec = by_column(str(name))
-        if spec is None or spec.name == "phase":
-            continue
-        values = table[name].to_numpy(dtype=float) / spec.factor
-        bounds = quantity_of(spec.name)
-        outside = (values < bounds.low) | (values > bounds.high)
-        if outside.any():
-            low, high = (bound * spec.factor for bound in (bounds.low, bounds.high))
-            warnings.append(
-                f"{name}: {int(outside.sum())} values outside {round(low, 6) + 0.0:g}..{round(high, 6):g} "
-                f"{spec.column_unit} left out"
-            )
-            table.loc[outside, name] = np.nan
+    path: Path
+    time_ns: Times
+    columns: Mapping[str, Array]
+    dated: bool
+    word: str | None
+    unknown: tuple[str, ...]
+    shown: Shown
+    cut: int = 0
 
 
 def part_of(
-    path: Path,
+    table: OwnTable,
     format: str,
-    log: Log,
-    table: Any,
-    dropped: Mapping[str, int],
+    metadata: Mapping[str, Any],
     warnings: list[str],
-    unread: Sequence[str] = (),
+    of_empty: Mapping[str, Origin] | None = None,
+    changed: str = "",
 ) -> Part:
-    """The Log of a table with its account: a record is a row; one without any value is dropped.
+    """The Log of a table, with its account: a record is a row.
 
-    dropped : rows that are not in the table, by reason. unread : columns that are not known.
+    metadata : as ``metadata_of`` gave, or nothing where none came with the table. of_empty : origins of channels
+    without a sample, which are kept then; None leaves such channels out. changed : name of the metadata, where the
+    table is not as it was when these were written. Raises InputError where they can only be of another table.
     """
-    kept = table.drop(columns="time_utc").notna().any(axis=1).to_numpy()
-    every = {"no value": int((~kept).sum()), **dropped}
-    reasons = tuple((reason, count) for reason, count in every.items() if count)
-    records = len(table) + sum(dropped.values())
-    report = FileReport(path, format, records, int(kept.sum()), reasons, tuple(warnings))
-    time_ns = table["time_utc"].to_numpy().astype("datetime64[ns]").astype(np.int64)
-    return Part(log, report, time_ns[kept], unread=tuple(unread))
+    hints: list[str] = []
+    column = "time_utc" if table.dated else "elapsed_s"
+    if line := unread_times(column, table.time_ns, table.shown, ISO_NEEDED if table.dated else SECONDS_NEEDED):
+        hints.append(line)
+    other = cast(Origin, "derived" if table.word == BOTH else table.word or "measured")
+    origin: Origin = metadata.get("origin", other)
+    rest: Origin = "derived" if table.word == BOTH else origin
+    of_channels = {name: metadata.get("channels", {}).get(name, rest) for name in table.columns}
+    dropped: Counter[str] = Counter({"wrong number of fields": table.cut} if table.cut else {})
+    channels, kept_ns = channels_of(table.time_ns, table.columns, of_channels, dropped, hints, table.shown)
+    if changed:
+        _check_same(table, changed, metadata, channels, kept_ns)
+    empty = of_empty or {}
+    channels = {
+        name: channel if len(channel) else dataclasses.replace(channel, origin=empty.get(name, channel.origin))
+        for name, channel in channels.items()
+        if len(channel) or of_empty is not None
+    }
+    told = texts_of(metadata) if metadata else {}
+    if not table.dated:
+        told["time_note"] = "the date is arbitrary: the table has elapsed_s alone"
+    if not metadata and table.word is None:
+        told["origin_note"] = "taken as measured: the table does not say where its values come from"
+        warnings = [*warnings, told["origin_note"]]
+    log = Log(channels, origin, told, events_of(metadata) if metadata else ())
+    error = None if len(kept_ns) or not len(table.time_ns) + table.cut else unusable(dropped, hints)
+    report = FileReport(
+        table.path, format, len(table.time_ns) + table.cut, len(kept_ns), tuple(sorted(dropped.items())),
+        (*warnings, *hints), error,
+    )  # fmt: skip
+    return Part(log, report, kept_ns, unread=table.unknown)
+
+
+def _check_same(
+    table: OwnTable, beside: str, metadata: Mapping[str, Any], channels: Mapping[str, Channel], kept_ns: Times
+) -> None:
+    """Refuse metadata that can only be of another table."""
+    told = [name for name in CHANNELS if name in channels and len(channels[name])]
+    span = (int(kept_ns[0]), int(kept_ns[-1])) if table.dated and len(kept_ns) else None
+    if why := stranger(metadata, told, span):
+        raise InputError(table.path, f"{beside} is of another table: {why}; remove it to read the table")

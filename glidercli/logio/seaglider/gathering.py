@@ -123,7 +123,7 @@ class Gathering:
         log = Log(channels, "measured", dive.metadata() | self.metadata | NOTES, events)
         recordings = tuple(f"{dive.name}.{ending}" for ending in holds) if dive.name else ()
         beside = {"eng": "log", "log": "eng"}.get(holds[0]) if len(holds) == 1 else None
-        partner = f"{dive.name}.{beside}" if beside and dive.name else ""
+        partner = f"{dive.name}.{beside}" if beside and dive.name and not self.beside else ""
         return Part(
             log, report, record_ns, dive.name, recordings, partner=partner, unread=tuple(self.unread),
             **more,  # type: ignore[arg-type]

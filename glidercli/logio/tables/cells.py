@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import itertools
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -12,10 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.errors import InputError
+from glidercli.files import is_utf16
 from glidercli.logio.own.parquet_back import is_parquet, opened
 from glidercli.logio.tables.mapping import File, Missing
 
-__all__ = ["Cells", "numbers", "read_cells", "words"]
+__all__ = ["Cells", "numbers", "place_of", "read_cells", "words"]
 
 Array = NDArray[np.float64]
 LONGEST_LINE = 1 << 20
@@ -41,14 +43,14 @@ def read_cells(path: Path, names: Sequence[str], how: File) -> Cells:
         with opened(path) as file:
             stored = {name.strip(): name for name in file.schema_arrow.names}
             there = [name.strip() for name in file.schema_arrow.names]
-            _check_there(path, names, there)
+            _check_there(path, names, there, "")
             table = file.read(columns=[stored[name] for name in names])
             columns = {name: table.column(stored[name]).combine_chunks() for name in names}
             return Cells(columns, 0, _others(names, there))
     from pyarrow import csv as csv_of_arrow
 
     there = _head(path, how)
-    _check_there(path, names, there)
+    _check_there(path, names, there, how.separator)
     cut = 0
 
     def skip(row: Any) -> str:
@@ -85,15 +87,18 @@ def _others(names: Sequence[str], there: Sequence[str]) -> tuple[str, ...]:
 
 def _head(path: Path, how: File) -> list[str]:
     """The names of the columns."""
-    with path.open("rb") as stream:
-        for _ in range(how.skip_lines):
-            stream.readline(LONGEST_LINE)
-        line = stream.readline(LONGEST_LINE)
     try:
-        text = line.decode(how.encoding).lstrip("\ufeff").strip("\r\n")
-    except UnicodeDecodeError:
-        raise InputError(path, f"is no text in {how.encoding}; [file] encoding may name another") from None
-    text = text.split("\r", 1)[0]  # lines of old Macintosh files end in CR alone
+        with path.open(encoding=how.encoding) as stream:  # lines may end in CR alone, too
+            for _ in range(how.skip_lines):
+                stream.readline(LONGEST_LINE)
+            text = stream.readline(LONGEST_LINE).lstrip("\ufeff").strip("\n")
+    except (UnicodeError, LookupError):
+        with path.open("rb") as raw:
+            told = 'UTF-16, which [file] encoding = "utf-16" reads' if is_utf16(raw.read(4096)) else ""
+        raise InputError(
+            path,
+            f"is no text in {how.encoding}; " + (f"it is in {told}" if told else "[file] encoding may name another"),
+        ) from None
     try:
         names = [name.strip() for name in next(csv.reader(io.StringIO(text), delimiter=how.separator), [])]
     except csv.Error as fault:
@@ -103,14 +108,32 @@ def _head(path: Path, how: File) -> list[str]:
     return names
 
 
-def _check_there(path: Path, names: Sequence[str], there: Sequence[str]) -> None:
-    """Refuse a mapping that names what the table does not have, or has twice."""
+def _check_there(path: Path, names: Sequence[str], there: Sequence[str], separator: str) -> None:
+    """Refuse a mapping that names what the table does not have, or has twice. separator : of the mapping, if any."""
     missing = [name for name in names if name not in there]
+    whole = separator.join(there)
+    for mark, told in ((",", ","), (";", ";"), ("\t", "\\t")):
+        if missing and separator and mark != separator and set(names) <= {name.strip() for name in whole.split(mark)}:
+            raise InputError(path, f'has its columns separated by {told}: [file] separator = "{told}" is needed')
     if missing:
         raise InputError(path, f"has no column {', '.join(missing)}; its columns are {', '.join(there)}")
     twice = [name for name in names if list(there).count(name) > 1]
     if twice:
         raise InputError(path, f"has the column {twice[0]} twice; each that is used may stand there once")
+
+
+def place_of(path: Path, how: File, row: int) -> str:
+    """Where a row stands, for a message: the line of a text, the row of Parquet. row : from 0, among whole rows."""
+    if is_parquet(path):
+        return f"row {row + 1}"
+    width = len(_head(path, how))
+    with path.open(encoding=how.encoding, errors="replace", newline="") as stream:
+        for _ in range(how.skip_lines):
+            stream.readline()
+        reader = csv.reader(stream, delimiter=how.separator)
+        whole = (reader.line_num for fields in reader if len(fields) == width)
+        line = next(itertools.islice(whole, row + 1, None), None)  # the first is that of the names
+    return f"row {row + 1}" if line is None else f"line {line + how.skip_lines}"
 
 
 def words(column: Any, missing: Missing) -> Any:

@@ -29,8 +29,8 @@ from pydantic.dataclasses import dataclass
 
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.log import Origin
-from glidercli.logio.named_units import conversion, units_of
 from glidercli.logio.netcdf.times import zero_and_unit
+from glidercli.named_units import conversion, units_of
 
 __all__ = ["NUMBERS", "Column", "File", "Mapping", "Missing", "Time", "column_faults", "time_faults"]
 

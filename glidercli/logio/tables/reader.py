@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable, Sequence
 from collections.abc import Mapping as MappingOf
 from pathlib import Path
 from typing import Any
@@ -47,6 +48,7 @@ def read_table(path: Path, aids: Aids = Aids()) -> Part:
     table does not have.
     """
     from glidercli.logio.netcdf.fixes import fixes
+    from glidercli.logio.own.rules import unread_times, unusable
     from glidercli.logio.plausible import quantity_of
     from glidercli.logio.quantities import channel_of
     from glidercli.logio.records import sampled, usable
@@ -64,7 +66,11 @@ def read_table(path: Path, aids: Aids = Aids()) -> Part:
     warnings: list[str] = []
     origin: Origin = mapping.file.origin or "measured"
     time_ns = times_of(cells.columns, mapping.time, mapping.missing, mapping.file.decimal)
-    values = _values(cells.columns, mapping, warnings)
+    shown = _shower(path, mapping.file, cells.columns)
+    times, how = mapping.time.names, f'[time] format = "{mapping.time.format}"'
+    if line := unread_times(" ".join(times), time_ns, lambda _, row: shown(times, row), f"{how} does not fit"):
+        warnings.append(line)
+    values = _values(cells.columns, mapping, warnings, shown)
     dropped: Counter[str] = Counter({"wrong number of fields": cells.cut} if cells.cut else {})
     good = usable(time_ns, values if len(values) >= FEW else values | {"": _any(values)}, dropped)
     channels = {}
@@ -97,9 +103,10 @@ def read_table(path: Path, aids: Aids = Aids()) -> Part:
     if mapping.file.origin is None:
         metadata["origin_note"] = UNSAID
         warnings.append(UNSAID)
+    error = None if kept.any() or not len(time_ns) + cells.cut else unusable(dropped, warnings)
     report = FileReport(
         path, "table", len(time_ns) + cells.cut, int(kept.sum()), tuple(sorted(dropped.items())), tuple(warnings),
-        beside=(found,),
+        error, beside=(found,),
     )  # fmt: skip
     return Part(Log(channels, origin, metadata), report, time_ns[good][kept], unread=cells.others, near=near)
 
@@ -109,11 +116,26 @@ def _any(values: MappingOf[str, Array]) -> Array:
     return np.where(np.any([np.isfinite(v) for v in values.values()], axis=0), 1.0, np.nan)
 
 
-def _values(columns: MappingOf[str, Any], mapping: Any, warnings: list[str]) -> dict[str, Array]:
+def _shower(path: Path, how: Any, columns: MappingOf[str, Any]) -> Callable[[Sequence[str], int], str]:
+    """Shows the cells of some columns in a row, and where it stands."""
+    from glidercli.logio.tables.cells import place_of
+
+    def shown(names: Sequence[str], row: int) -> str:
+        cells = [columns[name][row].as_py() for name in names]
+        text = " ".join("" if cell is None else str(cell) for cell in cells)
+        return f"{place_of(path, how, row)}: {text[:40]!r}"
+
+    return shown
+
+
+def _values(
+    columns: MappingOf[str, Any], mapping: Any, warnings: list[str], shown: Callable[[Sequence[str], int], str]
+) -> dict[str, Array]:
     """The mapped columns by channel, SI, NaN where there is no value."""
-    from glidercli.logio.named_units import conversion
+    from glidercli.logio.own.cells import has_decimal_comma
     from glidercli.logio.quantities import without_sentinels
     from glidercli.logio.tables.cells import numbers
+    from glidercli.named_units import conversion
 
     values = {}
     for channel, column in mapping.columns.items():
@@ -121,6 +143,13 @@ def _values(columns: MappingOf[str, Any], mapping: Any, warnings: list[str]) -> 
             values[channel] = _phases(columns[column.column], column, mapping.missing, warnings)
             continue
         recorded = numbers(columns[column.column], mapping.missing, mapping.file.decimal)
+        if strange := np.flatnonzero(np.isinf(recorded)).tolist():
+            comma = has_decimal_comma(str(columns[column.column][strange[0]].as_py()))
+            hint = ' (a decimal comma? [file] decimal = "," reads it)' if comma else ""
+            first = shown([column.column], strange[0])
+            line = f"{column.column}: {len(strange)} cells left out that are no number, the first in {first}{hint}"
+            warnings.append(line)
+            recorded[strange] = np.nan
         recorded = without_sentinels(column.column, recorded, mapping.missing.values, warnings)
         to_si = conversion(column.unit, channel)
         assert to_si is not None  # load_mapping has checked it

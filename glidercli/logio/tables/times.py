@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.logio.netcdf.times import FIRST, LAST, ticks, zero_and_unit
+from glidercli.logio.netcdf.times import ticks, zero_and_unit
+from glidercli.logio.own.cells import times_of_timestamps
 from glidercli.logio.records import NO_TIME, to_ns
 from glidercli.logio.tables.cells import numbers, words
 from glidercli.logio.tables.mapping import NUMBERS, Missing, Time
@@ -34,11 +35,7 @@ def times_of(columns: Mapping[str, Any], time: Time, missing: Missing, decimal: 
 
     first = columns[time.names[0]]
     if pa.types.is_timestamp(first.type):
-        safe = first.cast(pa.timestamp("us", first.type.tz), safe=False).cast(pa.int64())
-        fine = first.cast(pa.timestamp("ns", first.type.tz), safe=False).cast(pa.int64())
-        rough = safe.fill_null(FIRST // 1000 - 1).to_numpy(zero_copy_only=False)
-        told = (rough > FIRST // 1000) & (rough < LAST // 1000)
-        return np.where(told, fine.fill_null(NO_TIME).to_numpy(zero_copy_only=False), NO_TIME)
+        return times_of_timestamps(first)
     shift = round(time.utc_offset_h * HOUR)
     if time.format in NUMBERS or " since " in time.format:
         values = numbers(first, missing, decimal)

@@ -301,7 +301,7 @@ def test_a_record_in_time_is_a_log(tmp_path):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda d: d.TEMP.attrs.update(units="furlong"), "TEMP is in 'furlong', allowed: degc"),
+        (lambda d: d.TEMP.attrs.update(units="furlong"), "TEMP is in 'furlong', allowed: degC, K"),
         (lambda d: d.TIME.attrs.update(units="moons since 2020-01-01"), "TIME: units = 'moons"),
     ],
 )
@@ -353,3 +353,27 @@ def test_a_header_that_announces_more_than_can_be(tmp_path):
     assert path.stat().st_size < 1e5
     with pytest.raises(InputError, match=r"has 2.1e\+09 values, allowed are 5e\+07"):
         read_casts(path)
+
+
+def test_of_several_profiles_one_that_goes_up_and_down_is_left_out_by_name(tmp_path):
+    depth = np.array([[5.0, 10.0, 20.0], [5.0, 20.0, 10.0], [20.0, 10.0, 5.0]])
+    whole = xr.Dataset(
+        {
+            "TEMP": (("P", "N"), T[:, :3], standard("sea_water_temperature", "degC")),
+            "PSAL": (("P", "N"), S[:, :3], standard("sea_water_practical_salinity", "1")),
+            "DEPTH": (("P", "N"), depth, standard("depth", "m", positive="down")),
+            "TIME": ("P", HOURS, {"standard_name": "time"}),
+        }
+    )
+    casts = read_casts(save(whole, tmp_path / "m.nc"))
+    assert [cast.depth.tolist() for cast in casts] == [[5.0, 10.0, 20.0]] * 2  # the last came from the bottom up
+    told = "1 of 3 profiles left out, whose depth goes up and down: profile 1, 2020-05-01T06:00:00Z"
+    assert casts[0].warnings[0] == told
+    assert ("in a profile whose depth goes up and down", 3) in casts[0].dropped
+    assert sum(cast.records for cast in casts) == 9
+    with pytest.raises(InputError, match="its depth goes up and down; a profile goes one way"):
+        read_casts(save(whole.isel(P=[1]), tmp_path / "one.nc"))
+    with pytest.raises(
+        InputError, match=r"has no profile of two usable .* 6 in a profile whose depth goes up and down"
+    ):
+        read_casts(save(whole.isel(P=[1, 1]).assign(TIME=("P", HOURS[:2])), tmp_path / "none.nc"))
