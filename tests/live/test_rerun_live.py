@@ -205,3 +205,31 @@ def test_a_window_that_does_not_open_is_one_line(glider: Run) -> None:
     assert done.returncode in (0, 1)  # 0 where it listened for a moment
     assert "Traceback" not in done.stderr
     assert "the Rerun viewer" in done.stderr.splitlines()[-1]
+
+
+def test_the_viewer_that_a_window_would_show_gets_the_log(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The very viewer, drawing without a window, since there is no display here; it needs a driver for Vulkan."""
+    from glidercli.errors import InputError
+    from glidercli.live import rerun_viewer
+
+    program = tmp_path / "rerun"
+    program.write_text(f'#!/bin/sh\nexec "{_binary()}" "$@" --headless --window-size 800x600\n')
+    program.chmod(0o755)
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    monkeypatch.setattr(rerun_viewer, "_binary", lambda: program)
+    log = read([DIVE]).log
+    try:
+        viewer = rerun_viewer.RerunViewer(web=False, port=None, following=False)
+    except InputError as error:
+        pytest.skip(f"it does not start here: {error}")
+    try:
+        viewer.begin(log, None)
+        viewer.whole(log, log, panels=True)
+        viewer.add(log)
+        feed = int(re.findall(r":(\d+)/", viewer._url)[0])
+        wait_for(lambda: holds(saved(feed, tmp_path / "back.rrd"), log), "the whole log")
+    except ConnectionError as error:
+        pytest.skip(f"it does not stay here: {error}")
+    finally:
+        viewer.close(patient=False)
+    assert not listening(feed)
