@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import socket
 import threading
 import time
 from collections import deque
@@ -17,10 +19,10 @@ MOST_WAITING = 4_000_000
 class Client:
     """A viewer that is connected. name : where it came from, for people. subscriptions : its number of each channel."""
 
-    def __init__(self, socket: Any) -> None:
-        host, port = socket.remote_address[:2]
+    def __init__(self, connection: Any) -> None:
+        host, port = connection.remote_address[:2]
         self.name = f"{host}:{port}"
-        self.socket = socket
+        self.socket = connection
         self.subscriptions: dict[int, int] = {}
         self.progress = time.monotonic()
         """When it last took something, or had nothing to take."""
@@ -42,6 +44,12 @@ class Client:
         with self._changed:
             self._ending = True
             self._changed.notify_all()
+
+    def cut(self) -> None:
+        """Cut the connection; what waits is lost, and a send that hangs ends."""
+        with contextlib.suppress(OSError):
+            self.socket.socket.shutdown(socket.SHUT_RDWR)
+        self._give_up()
 
     def room(self, seconds: float) -> bool:
         """Whether it can be given more; waits for that so long at most."""

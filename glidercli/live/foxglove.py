@@ -78,7 +78,7 @@ class FoxgloveServer:
         self._subscribed = self._announced = 0
         self._closing = False
         style: dict[str, Any] = {"subprotocols": PROTOCOLS, "compression": None, "server_header": None, "logger": quiet}
-        self._server = serve(self._attend, sock=listener, max_size=1 << 20, close_timeout=1, **style)
+        self._server = serve(self._attend, sock=listener, max_size=1 << 20, open_timeout=2, close_timeout=1, **style)
         self._thread = threading.Thread(target=self._server.serve_forever, daemon=True)
         self._thread.start()
 
@@ -154,10 +154,12 @@ class FoxgloveServer:
         for client in list(self._clients):
             while patient and not client.empty(0.2) and client.stalled() < GONE:
                 pass
-            client.end()
+            if client.empty(0.0):
+                client.end()
+                client.socket.close(1001, "the play is over" if patient else "interrupted")
+            else:
+                client.cut()  # one that takes nothing would not take the word either
         self._server.shutdown()
-        for client in list(self._clients):
-            client.socket.close(1001, "the play is over" if patient else "interrupted")
         self._thread.join(timeout=2.0)
 
     def _wait_for_room(self) -> None:
@@ -168,8 +170,7 @@ class FoxgloveServer:
                 if stalled > GONE:
                     self._tell(f"the viewer at {client.name} took nothing for {GONE:.0f} s and was let go")
                     self._remove(client)
-                    client.end()
-                    client.socket.socket.close()
+                    client.cut()
                     break
                 if stalled > SLOW and not told:
                     told = True
@@ -180,6 +181,8 @@ class FoxgloveServer:
         from websockets.exceptions import ConnectionClosed
 
         client = Client(socket)
+        if self._closing:
+            return
         info = {
             "op": "serverInfo", "name": "glider", "capabilities": ["time"], "supportedEncodings": ["protobuf"],
             "metadata": self._about, "sessionId": self._session,

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
+import sys
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,6 +27,8 @@ PORT = 9876
 """Where Rerun's own viewers listen if nothing else is said."""
 LONGEST_START = 30.0
 """s that a viewer may take until it listens."""
+PR_SET_PDEATHSIG = 1
+"""From <linux/prctl.h>: the signal that a process gets when its parent ends."""
 LONGEST_END = 3.0
 """s that it may take to end by itself."""
 
@@ -60,6 +65,7 @@ class RerunViewer:
         self._process = subprocess.Popen(
             command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self._said, env=environment,
             start_new_session=True,  # Ctrl-C is for us; we end it
+            preexec_fn=_bound_to_us(),
         )  # fmt: skip
         try:
             self._wait_for(feed)
@@ -143,6 +149,19 @@ class RerunViewer:
         self._said.seek(0)
         lines = [line for line in self._said.read(100_000).decode(errors="replace").splitlines() if line.strip()]
         return lines[-1].strip() if lines else f"it ended with code {self._process.returncode}"
+
+
+def _bound_to_us() -> Callable[[], object] | None:
+    """What a process does before it becomes the viewer: on Linux it asks to be ended with us, even if we are killed.
+
+    Nothing but the one call is done there, for between fork and exec no lock may be asked for (prctl(2)).
+    """
+    if not sys.platform.startswith("linux"):
+        return None
+    import ctypes
+
+    ask = ctypes.CDLL(None).prctl
+    return lambda: ask(PR_SET_PDEATHSIG, int(signal.SIGTERM))
 
 
 def _binary() -> Path:

@@ -38,4 +38,5 @@ def _play(log: Log, rate: float, viewers: Viewers) -> None:
     viewers.each(lambda viewer: viewer.clock(pace.start_ns))
     for now_ns, piece in pace.pieces():
         viewers.show(piece, now_ns)
-        pace.paused(viewers.await_return())
+        if now_ns < pace.end_ns:
+            pace.paused(viewers.await_return())

@@ -88,7 +88,7 @@ def running(*arguments: object, cwd: Path, env: dict[str, str] | None = None) ->
         yield run
     finally:
         if run.process.poll() is None:
-            run.process.kill()
+            run.process.terminate()
         run.wait()
 
 

@@ -271,3 +271,23 @@ def test_a_growing_file_reaches_a_viewer_and_the_outputs(tmp_path: Path) -> None
     for name, channel in whole.channels.items():
         assert same(back[name], channel), name
     assert "/map/track" in watcher.messages
+
+
+def test_channels_that_come_later_reach_a_viewer_whole(tmp_path: Path) -> None:
+    """A file with other channels changes kinds of messages: the viewer is told, and gets every new sample."""
+    folder = tmp_path / "grows"
+    folder.mkdir()
+    source = LOGS / "seaexplorer-sea035"
+    shutil.copy(source / "sea035.12.gli.sub.36", folder)
+    with running("replay", folder, "--follow", "--json", cwd=tmp_path) as run:
+        watcher = Watcher(run.url())
+        wait_for(lambda: bool(watcher.messages.get("/glider/attitude")), "the first samples")
+        shutil.copy(source / "sea035.12.pld1.sub.36", tmp_path / "part")
+        os.replace(tmp_path / "part", folder / "sea035.12.pld1.sub.36")
+        whole = read([folder]).log
+        water = len(np.union1d(whole["temperature"].time_ns, whole["pressure"].time_ns))
+        wait_for(lambda: len(watcher.messages.get("/glider/water", [])) >= water, "the water")
+        assert run.end(signal.SIGTERM) == 0, run.said
+        watcher.until_closed()
+    assert [at for at, _ in watcher.messages["/glider/attitude"]] == whole["heading"].time_ns.tolist()
+    assert len(watcher.messages["/glider/water"]) == water

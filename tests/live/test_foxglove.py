@@ -62,7 +62,7 @@ def test_who_comes_late_gets_what_stands_still_and_then_the_rest(
     """A log of 5.8 h in some 4 s; the second viewer comes after some of it."""
     with running("replay", SEA035, "--rate", "6000", cwd=tmp_path) as run:
         early = Watcher(run.url())
-        wait_for(lambda: early.count > 1000, "samples")
+        wait_for(lambda: early.count > 300, "samples")
         late = Watcher(run.url())
         early.until_closed()
         late.until_closed()
@@ -148,6 +148,40 @@ def test_one_that_does_not_read_is_waited_for_and_told(
     viewer.close(patient=True)
     slow.until_closed()
     assert slow.messages == kept
+
+
+def test_one_that_takes_nothing_does_not_hold_the_end_up() -> None:
+    """A connection whose other side never reads, more waiting than the system buffers take."""
+    import struct
+    import threading
+    import time
+
+    from glidercli.live.foxglove import FoxgloveServer
+    from glidercli.logio.mcap.contents import Contents
+
+    server = FoxgloveServer(None, {}, lambda line: None)
+    topics = next(iter(Contents(read([DIVE]).log).samples(read([DIVE]).log)))
+    server.announce(topics)
+    with socket.socket() as stuck:
+        stuck.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        stuck.connect(("127.0.0.1", server.port))
+        stuck.sendall(
+            b"GET / HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+            b"Sec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==\r\nSec-WebSocket-Version: 13\r\n"
+            b"Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n\r\n"
+        )
+        text = json.dumps({"op": "subscribe", "subscriptions": [{"id": 1, "channelId": 1}]}).encode()
+        stuck.sendall(struct.pack(">BBH", 0x81, 0x80 | 126, len(text)) + bytes(4) + text)
+        wait_for(lambda: server.watched, "the subscription")
+        send = threading.Thread(target=lambda: server.send([(topics[0].name, 0, bytes(1 << 20))] * 40), daemon=True)
+        send.start()
+        send.join()
+        (client,) = server._clients
+        wait_for(lambda: client.stalled() > 0.5, "the buffers to be full")
+        begun = time.monotonic()
+        server.close(patient=False)
+        # its limits are 1 s to close, 2 s to open and 2 s for its thread; GONE would be 30 s
+        assert time.monotonic() - begun < 20.0
 
 
 def test_nonsense_is_answered_and_harms_nobody(tmp_path: Path) -> None:
