@@ -118,7 +118,7 @@ def test_camera_sees_all_that_is_drawn() -> None:
         size = 10.0 ** rng.uniform(0.0, 5.0, 3)
         places = np.cumsum(rng.normal(size=(200, 3)), axis=0) * size / 10.0
         places[:, 2] = np.abs(places[:, 2])
-        sea = Sea.about(places, None, np.empty((0, 3)))
+        sea = Sea.about(places, None, np.empty((0, 3)), 1.3)
         eye, target = sea.camera
         forward = (target - eye) / np.linalg.norm(target - eye)
         right = np.cross(forward, [0.0, 0.0, -1.0])

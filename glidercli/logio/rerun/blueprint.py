@@ -11,7 +11,7 @@ from glidercli.log import Log
 from glidercli.logio.drawable import hull_size
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun import panels
-from glidercli.logio.rerun.sea import Sea
+from glidercli.logio.rerun.sea import Sea, in_words
 from glidercli.logio.rerun.sections import TALL, Section
 
 __all__ = ["Shown", "blueprint", "hull_title"]
@@ -66,7 +66,7 @@ def blueprint(log: Log, shown: Shown) -> Any:
     if flight:
         columns.append(rrb.Vertical(*flight, row_shares=[1.3, 1.0, 1.0, 1.0][: len(flight)]))
     columns.append(rrb.Tabs(*(rrb.Vertical(*views, name=tab) for tab, views in tabs.items() if views), active_tab=0))
-    shares = [4.6] * bool(left) + [3.8] * bool(flight) + [4.1]
+    shares = [panels.LEFT[len(left)]] * bool(left) + [3.8] * bool(flight) + [4.1]
     whole = rrb.Horizontal(*columns, column_shares=shares)
     return rrb.Blueprint(whole, panels.clock(log, shown.span_ns), *panels.hidden())
 
@@ -91,7 +91,7 @@ def _overview(log: Log, shown: Shown, sea: Sea) -> Any:
 
     kind = "DERIVED" if "north" in log and log["north"].origin == "derived" else log.kind
     drawn = "" if sea.exaggeration == 1.0 else f", depth drawn x {sea.exaggeration:g}"
-    grid = f"grid {sea.spacing:g} m"
+    grid = f"grid {in_words(sea.spacing)}"
     sights = ["+ /world/**", "- /world/vehicle/**", "+ /world/vehicle", "+ /world/vehicle/marker"]
     sights += ["+ /world/vehicle/plumb", "- /world/water/**", "- /world/path"]
     arrows = ", arrows: current" if shown.current else ""
