@@ -54,7 +54,7 @@ def replay(
     quiet: Quiet = False,
     debug: Debug = False,
 ) -> None:
-    """Recorded field logs: what they hold, and into MCAP, Rerun and CSV."""
+    """Recorded field logs: what they hold, into MCAP, Rerun and CSV, and live in viewers."""
     from glidercli.cli.logs_in import cores
     from glidercli.cli.outputs import check_log_outputs, write_log
     from glidercli.cli.printing import json_text, say, shown, warn

@@ -2,6 +2,7 @@
 
 from glidercli.live.choices import Choices, check_choices
 from glidercli.live.following import following
-from glidercli.live.showing import follow, show
+from glidercli.live.showing import show
+from glidercli.live.watching import follow
 
 __all__ = ["Choices", "check_choices", "follow", "following", "show"]

@@ -21,6 +21,8 @@ from glidercli.logio.spreading import read_one
 __all__ = ["GrowingFiles", "check_followable"]
 
 HEAD = 4096
+BEGINS = 65536
+"""bytes; a file that is no log up to here will not become one."""
 BLOCK = 1 << 20
 SLOCUM = b"dbd_label"
 WHOLE = {b"\x89MCAP": "an .mcap", b"PAR1": "Parquet", b"\x89HDF": "NetCDF", b"CDF": "NetCDF", b"\x1f\x8b": "gzip"}
@@ -79,7 +81,9 @@ class GrowingFiles:
                     self._say_replaced(path, before[0], state)
                 found = self._read(path, aids)
                 self._known[path] = state, found
-            if isinstance(found, FileReport) and (found.format is not None or found.error == NOT_WHOLE):
+            if isinstance(found, FileReport) and (
+                found.format is not None or found.error == NOT_WHOLE or (state is not None and state.size < BEGINS)
+            ):
                 self.waiting = f"{path}: {found.error}"
             yield found
 

@@ -10,8 +10,8 @@ from glidercli.log import Log
 
 __all__ = ["Pace", "between"]
 
-STEP = 0.1
-"""s of the clock between two pieces."""
+STEP, LEAST = 0.2, 0.001
+"""s of the clock between two pieces, at most and at least."""
 BILLION = 1_000_000_000
 
 
@@ -33,15 +33,16 @@ class Pace:
         """The log's time, UTC ns, and what has happened since the piece before; all have the same channels."""
         shown_ns = self.start_ns
         self._begun = self._clock()
+        whole = (self.end_ns - self.start_ns) / (self._rate * BILLION)
         while shown_ns <= self.end_ns:
-            elapsed = (self._clock() - self._begun) * self._rate
-            span_ns = self.end_ns - self.start_ns
-            now_ns = self.start_ns + (span_ns if elapsed * BILLION >= span_ns else int(elapsed * BILLION))
-            yield now_ns, between(self._log, shown_ns, now_ns + 1)
-            shown_ns = now_ns + 1
+            passed = self._clock() - self._begun
+            now_ns = self.end_ns if passed >= whole else self.start_ns + int(passed * self._rate * BILLION)
+            if now_ns >= shown_ns:
+                yield now_ns, between(self._log, shown_ns, now_ns + 1)
+                shown_ns = now_ns + 1
             if shown_ns <= self.end_ns:
-                left = (self.end_ns - self.start_ns) / (self._rate * BILLION) - (self._clock() - self._begun)
-                self._sleep(max(0.0, min(STEP, left)))
+                left = whole - (self._clock() - self._begun)
+                self._sleep(min(STEP, max(left, LEAST)))
 
     def paused(self, seconds: float) -> None:
         """Let so much time of the clock not count."""

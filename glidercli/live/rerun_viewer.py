@@ -78,7 +78,7 @@ class RerunViewer:
         if self._stream is None or past is None:
             if self._stream is not None:
                 self._stream.close()
-            self._stream = RerunStream(self._url)
+            self._stream = RerunStream(self._url, self.name, lambda: self._process.poll() is None)
         else:
             for _ in self._contents.samples(past):
                 pass
@@ -108,10 +108,7 @@ class RerunViewer:
             raise ConnectionError(f"{self.name} was closed")
 
     def close(self, patient: bool) -> None:
-        """End the process."""
-        if self._stream is not None:
-            self._stream.close()
-            self._stream = None
+        """End the process; only then the connection, for one that hangs would never let go of it."""
         try:
             self._process.terminate()
             self._process.wait(LONGEST_END)
@@ -120,7 +117,11 @@ class RerunViewer:
             self._process.wait()
             if not isinstance(error, subprocess.TimeoutExpired):
                 raise
-        self._said.close()
+        finally:
+            if self._stream is not None:
+                self._stream.close()
+                self._stream = None
+            self._said.close()
 
     def _ready(self) -> tuple[RerunStream, Contents]:
         self.check()

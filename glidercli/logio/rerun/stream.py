@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from glidercli.log import Log
@@ -13,17 +15,19 @@ if TYPE_CHECKING:
 
 __all__ = ["RerunStream"]
 
-LONGEST = 10.0
-"""s that a viewer may take to accept what was sent."""
+LONGEST, STEP = 60.0, 1.0
+"""s that a viewer may take to accept what was sent, and between two looks whether it is alive."""
 
 
 class RerunStream:
-    """One recording, sent to a viewer. url : of the viewer, which must listen already: rerun+http://HOST:PORT/proxy.
+    """One recording, sent to a viewer.
 
-    Every call raises ConnectionError where the viewer has left.
+    url : of the viewer, which must listen already: rerun+http://HOST:PORT/proxy. name : what it is, for people. alive :
+    whether it still runs. Every call raises ConnectionError where it does not, or takes nothing.
     """
 
-    def __init__(self, url: str) -> None:
+    def __init__(self, url: str, name: str, alive: Callable[[], bool]) -> None:
+        self._name, self._alive = name, alive
         os.environ.setdefault("RUST_LOG", "off")  # faults are ours to tell
         import rerun as rr
 
@@ -65,10 +69,6 @@ class RerunStream:
             rr.send_blueprint(views, recording=self._recording)
             self._flush()
 
-    def check(self) -> None:
-        """Raise ConnectionError where the viewer has left."""
-        self._flush()
-
     def close(self) -> None:
         """Leave the viewer with what it has."""
         self._recording.disconnect()
@@ -81,8 +81,15 @@ class RerunStream:
             self._flush()
 
     def _flush(self) -> None:
+        """Until the viewer has taken what was sent; in short steps, so that Ctrl-C and its end are seen."""
         recording: Any = self._recording
-        try:
-            recording.flush(timeout_sec=LONGEST)
-        except (RuntimeError, ValueError):  # all that Rerun tells
-            raise ConnectionError("the Rerun viewer left") from None
+        until = time.monotonic() + LONGEST
+        while True:
+            try:
+                recording.flush(timeout_sec=STEP)
+                return
+            except (RuntimeError, ValueError) as error:  # all that Rerun tells
+                if "timed out" not in str(error) or not self._alive():
+                    raise ConnectionError(f"{self._name} was closed") from None
+                if time.monotonic() > until:
+                    raise ConnectionError(f"{self._name} took nothing for {LONGEST:.0f} s") from None
