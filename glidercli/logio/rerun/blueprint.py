@@ -66,7 +66,7 @@ def blueprint(log: Log, shown: Shown) -> Any:
     if flight:
         columns.append(rrb.Vertical(*flight, row_shares=[1.3, 1.0, 1.0, 1.0][: len(flight)]))
     columns.append(rrb.Tabs(*(rrb.Vertical(*views, name=tab) for tab, views in tabs.items() if views), active_tab=0))
-    shares = [panels.LEFT[len(left)]] * bool(left) + [3.8] * bool(flight) + [4.1]
+    shares = panels.LEFT[len(left)] + [3.8] * bool(flight) + [4.1]
     whole = rrb.Horizontal(*columns, column_shares=shares)
     return rrb.Blueprint(whole, panels.clock(log, shown.span_ns), *panels.hidden())
 

@@ -53,8 +53,9 @@ COLOURS = {
     for name, colour in zip(names, (look.BLUE, look.ORANGE, look.GREEN), strict=False)
 }
 """Of each channel's line."""
-LEFT, ASPECT = {1: 6.0, 2: 4.6}, {1: 0.8, 2: 1.3}
-"""Share in the width of one or two panels in three dimensions, and the width to height of the upper one."""
+LEFT: tuple[list[float], ...] = ([], [6.0], [4.6])
+ASPECT = (0.0, 0.8, 1.3)
+"""Share in the width of as many panels in three dimensions, and the width to height of the upper one."""
 WORDS = {"vertical_speed": "sinking", "speed_through_water": "speed in water"}
 """What channels are called where their own name is long."""
 

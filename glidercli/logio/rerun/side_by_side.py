@@ -89,7 +89,7 @@ def side_by_side(
     columns: list[Any] = [rrb.Vertical(*left, row_shares=[1.25, 1.0][: len(left)])] if left else []
     columns += [rrb.Vertical(*flight, row_shares=[1.4, 1.0, 1.0, 1.0, 1.0][: len(flight)])] if flight else []
     columns.append(rrb.Tabs(*(rrb.Vertical(*views, name=tab) for tab, views in tabs.items() if views), active_tab=0))
-    shares = [panels.LEFT[len(left)]] * bool(left) + [3.8] * bool(flight) + [4.1]
+    shares = panels.LEFT[len(left)] + [3.8] * bool(flight) + [4.1]
     whole = rrb.Horizontal(*columns, column_shares=shares)
     return rrb.Blueprint(whole, panels.clock(sides[0].log, span_ns), *panels.hidden())
 
