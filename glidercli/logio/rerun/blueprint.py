@@ -14,7 +14,10 @@ from glidercli.logio.rerun import panels
 from glidercli.logio.rerun.sea import Sea, in_words
 from glidercli.logio.rerun.sections import TALL, Section
 
-__all__ = ["Shown", "blueprint", "hull_title"]
+__all__ = ["Shown", "blueprint"]
+
+LONGEST = 40
+"""Signs of a vehicle's name that a title has room for."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,7 +49,7 @@ def blueprint(log: Log, shown: Shown) -> Any:
         left.append(_overview(log, shown, shown.sea))
     if shown.has_hull:
         path = "/world/path" if shown.sea is not None else None
-        left.append(panels.hull_view(hull_title(log), "/world/vehicle", hull_size(log)[0], path))
+        left.append(panels.hull_view(_hull_title(log), "/world/vehicle", hull_size(log)[0], path))
     plots: dict[str, list[Any]] = {}
     for tab, title, unit, names in panels.PLOTS:
         if present := [name for name in names if name in log]:
@@ -77,12 +80,13 @@ def _words_of(phases: Sequence[str]) -> str:
     return ", ".join(f"{name} {look.NAMES[look.PHASE_COLOURS[name]]}" for name in order)
 
 
-def hull_title(log: Log) -> str:
+def _hull_title(log: Log) -> str:
     """Whose hull is drawn, and what moves in it."""
     own = hull_size(log)[2]
-    whose = f"{log.metadata.get('vehicle', 'its own')} hull" if own else "generic hull, not to scale"
+    name = "".join(sign for sign in log.metadata.get("vehicle", "its own") if sign.isprintable())
+    whose = f"{name[:LONGEST]} hull" if own else "generic hull, not to scale"
     moves = any(name in log for name in ("mass_position", "mass_rotation"))
-    return f"{log.kind} attitude{'; red: mass' if moves else ''}; {' '.join(whose.split())}"
+    return f"{log.kind} attitude{'; red: mass' if moves else ''}; {whose}"
 
 
 def _overview(log: Log, shown: Shown, sea: Sea) -> Any:
