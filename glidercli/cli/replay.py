@@ -65,12 +65,14 @@ def replay(
     from glidercli.errors import InputError, UsageError
     from glidercli.live.choices import Choices, check_choices
     from glidercli.logio import replay as play
+    from glidercli.logio.replaying import check_beside
 
     outputs = output or []
     choices = Choices(spawn, serve, foxglove, rate, follow, port, wait)
     check_choices(choices)
     if follow and (start is not None or end is not None):
         raise UsageError("--follow shows all that comes; leave out --start and --end")
+    check_beside(beside or (), outputs)  # a play or files that grow may take long before
     check_log_outputs(outputs, force, json, quiet)
     files = [path for path in outputs if path != Path("-")]
     reading = None

@@ -20,7 +20,7 @@ from glidercli.logio.writing import SUFFIXES, write
 from glidercli.provenance import provenance_json
 from glidercli.utc import iso
 
-__all__ = ["Replay", "replay"]
+__all__ = ["Replay", "check_beside", "replay"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -109,8 +109,7 @@ def replay(
     targets = [Path(path) for path in outputs]
     if attach and not any(target.suffix.lower() == ".mcap" for target in targets):
         raise UsageError("--attach puts the files into an .mcap; -o NAME.mcap is needed")
-    if beside and not any(target.suffix.lower() == ".rrd" for target in targets):
-        raise UsageError("--with shows logs side by side in Rerun; -o NAME.rrd is needed")
+    check_beside(beside, targets)
     check_outputs(targets, SUFFIXES, force)
     if reading is None:
         reading = read(paths, format, progress, cache=cache, columns=columns, workers=workers)
@@ -147,6 +146,12 @@ def replay(
     names = [_name(paths[0]) + more, *map(_name, beside)] if beside else []
     write(log, *targets, force=force, attach=sources[0] if attach else (), beside=together, names=names)
     return Replay(log, tuple(files), tuple(targets), part, passed_over([*paths, *beside]))
+
+
+def check_beside(beside: Sequence[str | Path], outputs: Sequence[Path]) -> None:
+    """A UsageError where logs are to be shown beside another and no output shows them."""
+    if beside and not any(path.suffix.lower() == ".rrd" for path in outputs):
+        raise UsageError("--with shows logs side by side in Rerun; -o NAME.rrd is needed")
 
 
 def _name(path: str | Path) -> str:

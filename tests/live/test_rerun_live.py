@@ -64,7 +64,9 @@ def saved(feed: int, path: Path) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     reader = RrdReader(whole)
     for store in reader.recordings():
         for chunk in reader.stream(store=store):
-            if not chunk.is_static and "Scalars:scalars" in (batch := chunk.to_record_batch()).schema.names:
+            if chunk.is_static or chunk.entity_path.startswith("/section/"):
+                continue
+            if "Scalars:scalars" in (batch := chunk.to_record_batch()).schema.names:
                 times = batch.column("utc").to_numpy(zero_copy_only=False).astype("datetime64[ns]").astype(np.int64)
                 values = batch.column("Scalars:scalars").values.to_numpy(zero_copy_only=False)
                 chunks.setdefault(chunk.entity_path.split("/")[-1], []).append((times, values))

@@ -118,7 +118,7 @@ def test_camera_sees_all_that_is_drawn() -> None:
         size = 10.0 ** rng.uniform(0.0, 5.0, 3)
         places = np.cumsum(rng.normal(size=(200, 3)), axis=0) * size / 10.0
         places[:, 2] = np.abs(places[:, 2])
-        sea = Sea.about(places, None, np.empty((0, 3)))
+        sea = Sea.about(places, None, np.empty((0, 3)), 1.3)
         eye, target = sea.camera
         forward = (target - eye) / np.linalg.norm(target - eye)
         right = np.cross(forward, [0.0, 0.0, -1.0])
@@ -212,3 +212,13 @@ def test_pieces_draw_what_the_whole_draws(tmp_path: Path) -> None:
     assert still(parts) == still(whole)
     for part in ("/section/temperature", "/map/vehicle"):
         assert times(parts, part) == times(whole, part)
+
+
+def test_name_of_the_vehicle_stands_in_its_title_as_far_as_it_can(tmp_path: Path) -> None:
+    t = np.arange(0.0, 20.0)
+    log = log_of(sinking(t, roll=0.1, pitch=-0.4, heading=3.0), "simulated", {})
+    own = {"hull_length_m": "1.5", "hull_diameter_m": "0.2", "vehicle": "my\x00\n\x1bglider" + 1000 * "!"}
+    path = written(log.with_metadata(**own), tmp_path)
+    assert f"SIMULATED attitude; myglider{32 * '!'} hull" in panels(path)
+    assert rows(path, "/world/vehicle/course/body/hull", "Capsules3D:radii")[2][0][0] == pytest.approx(0.1)
+    assert "1.5 m x 0.2 m" in page(path)

@@ -20,6 +20,7 @@ from glidercli.logio.rerun.clocks import aligned
 from glidercli.logio.rerun.contents import PIECE, header, texts
 from glidercli.logio.rerun.differences import Difference, differences, reference_first
 from glidercli.logio.rerun.hull import hull_notes
+from glidercli.logio.rerun.panels import ASPECT
 from glidercli.logio.rerun.plots import Plots
 from glidercli.logio.rerun.scene import Scene
 from glidercli.logio.rerun.sea import Sea
@@ -104,7 +105,8 @@ class Beside:
             return None
         depths = [depth for depth in map(bottom, self._logs) if depth is not None]
         places = np.concatenate([rows[:, :3] for rows in tracks])
-        sea = Sea.about(places, max(depths, default=None), np.empty((0, 3)))
+        aspect = ASPECT[1 + any(side.has_hull for side in self._sides)]
+        sea = Sea.about(places, max(depths, default=None), np.empty((0, 3)), aspect)
         chunks += [row("/world", rr.Transform3D(scale=[1.0, 1.0, sea.exaggeration])), *sea.chunks]
         notes += sea.notes
         for side, rows in zip(self._sides, tracks, strict=True):

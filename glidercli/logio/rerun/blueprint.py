@@ -11,10 +11,13 @@ from glidercli.log import Log
 from glidercli.logio.drawable import hull_size
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun import panels
-from glidercli.logio.rerun.sea import Sea
+from glidercli.logio.rerun.sea import Sea, in_words
 from glidercli.logio.rerun.sections import TALL, Section
 
-__all__ = ["Shown", "blueprint", "hull_title"]
+__all__ = ["Shown", "blueprint"]
+
+LONGEST = 40
+"""Signs of a vehicle's name that a title has room for."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,7 +49,7 @@ def blueprint(log: Log, shown: Shown) -> Any:
         left.append(_overview(log, shown, shown.sea))
     if shown.has_hull:
         path = "/world/path" if shown.sea is not None else None
-        left.append(panels.hull_view(hull_title(log), "/world/vehicle", hull_size(log)[0], path))
+        left.append(panels.hull_view(_hull_title(log), "/world/vehicle", hull_size(log)[0], path))
     plots: dict[str, list[Any]] = {}
     for tab, title, unit, names in panels.PLOTS:
         if present := [name for name in names if name in log]:
@@ -66,7 +69,7 @@ def blueprint(log: Log, shown: Shown) -> Any:
     if flight:
         columns.append(rrb.Vertical(*flight, row_shares=[1.3, 1.0, 1.0, 1.0][: len(flight)]))
     columns.append(rrb.Tabs(*(rrb.Vertical(*views, name=tab) for tab, views in tabs.items() if views), active_tab=0))
-    shares = [4.6] * bool(left) + [3.8] * bool(flight) + [4.1]
+    shares = panels.LEFT[len(left)] + [3.8] * bool(flight) + [4.1]
     whole = rrb.Horizontal(*columns, column_shares=shares)
     return rrb.Blueprint(whole, panels.clock(log, shown.span_ns), *panels.hidden())
 
@@ -77,12 +80,13 @@ def _words_of(phases: Sequence[str]) -> str:
     return ", ".join(f"{name} {look.NAMES[look.PHASE_COLOURS[name]]}" for name in order)
 
 
-def hull_title(log: Log) -> str:
+def _hull_title(log: Log) -> str:
     """Whose hull is drawn, and what moves in it."""
     own = hull_size(log)[2]
-    whose = f"{log.metadata.get('vehicle', 'its own')} hull" if own else "generic hull, not to scale"
+    name = "".join(sign for sign in log.metadata.get("vehicle", "its own") if sign.isprintable())
+    whose = f"{name[:LONGEST]} hull" if own else "generic hull, not to scale"
     moves = any(name in log for name in ("mass_position", "mass_rotation"))
-    return f"{log.kind} attitude{'; red: mass' if moves else ''}; {' '.join(whose.split())}"
+    return f"{log.kind} attitude{'; red: mass' if moves else ''}; {whose}"
 
 
 def _overview(log: Log, shown: Shown, sea: Sea) -> Any:
@@ -91,7 +95,7 @@ def _overview(log: Log, shown: Shown, sea: Sea) -> Any:
 
     kind = "DERIVED" if "north" in log and log["north"].origin == "derived" else log.kind
     drawn = "" if sea.exaggeration == 1.0 else f", depth drawn x {sea.exaggeration:g}"
-    grid = f"grid {sea.spacing:g} m"
+    grid = f"grid {in_words(sea.spacing)}"
     sights = ["+ /world/**", "- /world/vehicle/**", "+ /world/vehicle", "+ /world/vehicle/marker"]
     sights += ["+ /world/vehicle/plumb", "- /world/water/**", "- /world/path"]
     arrows = ", arrows: current" if shown.current else ""

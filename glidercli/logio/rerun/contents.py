@@ -20,6 +20,7 @@ from glidercli.logio.rerun.about import about
 from glidercli.logio.rerun.blueprint import Shown, blueprint
 from glidercli.logio.rerun.chart import Line, chart
 from glidercli.logio.rerun.hull import hull_notes
+from glidercli.logio.rerun.panels import ASPECT
 from glidercli.logio.rerun.plots import Plots
 from glidercli.logio.rerun.scene import Scene
 from glidercli.logio.rerun.sea import Sea
@@ -109,7 +110,7 @@ class Contents:
         import rerun as rr
 
         rows = self._scene.track.rows()
-        sea = Sea.about(rows[:, :3], bottom(log), fixes)
+        sea = Sea.about(rows[:, :3], bottom(log), fixes, ASPECT[1 + self._scene.has_hull])
         scale = rr.Transform3D(scale=[1.0, 1.0, sea.exaggeration])
         chunks.append(row("/world", scale))
         arrows = still.arrows(self._scene.currents.rows(), sea.extent, "/world")

@@ -13,8 +13,8 @@ from glidercli.log import Log
 from glidercli.logio.rerun import colours as look
 
 __all__ = [
-    "COLOURS", "PLOTS", "clock", "hidden", "hull_view", "over_time", "series_name", "space", "told", "unit_of",
-    "with_unit",
+    "ASPECT", "COLOURS", "LEFT", "PLOTS", "clock", "events", "hidden", "hull_view", "over_time", "series_name", "space",
+    "told", "unit_of", "with_unit",
 ]  # fmt: skip
 
 Array = NDArray[np.float64]
@@ -53,6 +53,9 @@ COLOURS = {
     for name, colour in zip(names, (look.BLUE, look.ORANGE, look.GREEN), strict=False)
 }
 """Of each channel's line."""
+LEFT: tuple[list[float], ...] = ([], [6.0], [4.6])
+ASPECT = (0.0, 0.8, 1.3)
+"""Share in the width of as many panels in three dimensions, and the width to height of the upper one."""
 WORDS = {"vertical_speed": "sinking", "speed_through_water": "speed in water"}
 """What channels are called where their own name is long."""
 
@@ -120,13 +123,21 @@ def hull_view(title: str, vehicle: str, length: float, path: str | None = None, 
     return space(title, f"{vehicle}/course", contents, eye, np.array([0.0, 0.0, 0.04 * length]))
 
 
-def told(log: Log, events: str = "/events") -> dict[str, list[Any]]:
+def events(contents: Sequence[str]) -> Any:
+    """Events with their times."""
+    import rerun.blueprint as rrb
+
+    columns = rrb.TextLogColumns(text_log_columns=[rrb.encodings.TextLogColumn(kind="body", visible=True)])
+    return rrb.TextLogView(origin="/", contents=[*contents], name="events", columns=columns)
+
+
+def told(log: Log) -> dict[str, list[Any]]:
     """Tabs of texts: events, and the page about the recording."""
     import rerun.blueprint as rrb
 
     tabs: dict[str, list[Any]] = {}
     if log.events:
-        tabs["Events"] = [rrb.TextLogView(origin=events, name="events")]
+        tabs["Events"] = [events(["/events"])]
     return tabs | {"About": [rrb.TextDocumentView(origin="/about", name="about this recording")]}
 
 

@@ -13,7 +13,7 @@ from glidercli.logio.rerun.settling import row
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
-__all__ = ["Camera", "Sea", "nice"]
+__all__ = ["Camera", "Sea", "in_words", "nice"]
 
 Array = NDArray[np.float64]
 Camera = tuple[Array, Array]
@@ -21,14 +21,19 @@ Camera = tuple[Array, Array]
 
 FLAT = 0.45
 """Depth is drawn at least so large beside the longer side of the track; otherwise it is exaggerated."""
-VIEW, WIDE, SLIM = np.radians(55.0), 1.3, 1.1
-"""Height of Rerun's field of view, rad; width to height of a panel, alone and with a colour bar beside it."""
+VIEW, BESIDE_BAR = np.radians(55.0), 0.85
+"""Height of Rerun's field of view, rad; how much of a panel's width a colour bar beside it leaves."""
 
 
 def nice(value: float) -> float:
     """The largest of 1, 2, 5 times a power of ten that is no greater than a positive value."""
     power = 10.0 ** np.floor(np.log10(value))
     return float(power * max(step for step in (1, 2, 5) if step * power <= value * 1.0001))
+
+
+def in_words(length: float) -> str:
+    """A length in m or km."""
+    return f"{length:g} m" if length < 1000.0 else f"{length / 1000.0:g} km"
 
 
 class Sea(NamedTuple):
@@ -47,11 +52,11 @@ class Sea(NamedTuple):
     """For a panel with a colour bar beside it."""
 
     @classmethod
-    def about(cls, places: Array, bottom: float | None, fixes: Array) -> Sea:
+    def about(cls, places: Array, bottom: float | None, fixes: Array, aspect: float) -> Sea:
         """The sea about a track.
 
         places : (n, 3), NED, m. bottom : depth of the bottom, m, None where it is unknown. fixes : (m, 3), NED, m; the
-        surface reaches those that are not far off.
+        surface reaches those that are not far off. aspect : width to height of the panel.
         """
         low, high = places.min(axis=0), places.max(axis=0)
         extent = max(float((high - low)[:2].max()), 1.0)
@@ -69,13 +74,13 @@ class Sea(NamedTuple):
         south, west = np.floor((middle - side) / spacing) * spacing
         north, east = np.ceil((middle + side) / spacing) * spacing
         box = _Box(south, west, north, east, deepest * 1.03, _sight(places, extent))
-        chunks = [*_surface(box, spacing), *_walls(box, deepest, exaggeration, places[[0, -1]]), *_bottom(box, bottom)]
-        notes = [f"The sea surface carries a grid of {spacing:g} m."]
+        chunks = [*_surface(box, spacing), *_walls(box, deepest, exaggeration, places), *_bottom(box, bottom)]
+        notes = [f"The sea surface carries a grid of {in_words(spacing)}."]
         if exaggeration != 1.0:
             notes.append(f"Depth is drawn {exaggeration:g} times too large in the overview; the hull is not.")
         if bottom is not None:
             notes.append(f"Brown: the bottom that the log tells, {bottom:g} m deep.")
-        cameras = [_camera(box, places, exaggeration, aspect) for aspect in (WIDE, SLIM)]
+        cameras = [_camera(box, places, exaggeration, width) for width in (aspect, BESIDE_BAR * aspect)]
         return cls(chunks, notes, exaggeration, spacing, extent, *cameras)
 
 
@@ -148,8 +153,8 @@ def _surface(box: _Box, spacing: float) -> list[Chunk]:
     return [row("/world/surface", plane), row("/world/surface/grid", grid), row("/world/surface/north", arrow)]
 
 
-def _walls(box: _Box, deepest: float, exaggeration: float, ends: Array) -> list[Chunk]:
-    """Lines of equal depth on the two walls away from the eye; named where a wall ends, away from the track's ends."""
+def _walls(box: _Box, deepest: float, exaggeration: float, places: Array) -> list[Chunk]:
+    """Lines of equal depth on the two walls away from the eye; named where a wall ends, clear of the track."""
     import rerun as rr
 
     (near_n, near_e), (far_n, far_e), floor = box.near, box.far, box.floor
@@ -161,9 +166,11 @@ def _walls(box: _Box, deepest: float, exaggeration: float, ends: Array) -> list[
     lines = rr.LineStrips3D(rungs + posts, colors=look.BOX, radii=rr.Radius.ui_points(0.5))
     right, up = box.across
     seen = np.stack([right, up * [1.0, 1.0, exaggeration]], axis=-1)
+    track = np.concatenate([places[:: max(1, len(places) // 1000)], places[-1:]]) @ seen
 
     def clear(corner: tuple[float, float]) -> float:
-        return float(np.linalg.norm((ends - np.array([*corner, 0.5 * deepest])) @ seen, axis=1).min())
+        names = np.array([(*corner, z) for z in depths]) @ seen
+        return float(np.linalg.norm(track[:, np.newaxis] - names, axis=-1).min())
 
     post = max((edge[0], edge[2]), key=clear)
     style = dict[str, Any](show_labels=True, radii=rr.Radius.ui_points(0.1), colors=look.GREY)

@@ -11,7 +11,7 @@ from glidercli.logio.drawable import hull_size
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun import panels
 from glidercli.logio.rerun.differences import Difference
-from glidercli.logio.rerun.sea import Sea
+from glidercli.logio.rerun.sea import Sea, in_words
 from glidercli.residuals import on_circle
 
 __all__ = ["Pair", "Side", "side_by_side"]
@@ -84,12 +84,12 @@ def side_by_side(
         tabs["Map"] = [rrb.MapView(origin="/map", zoom=zoom, name="tracks and fixes; the map comes from the network")]
     if any(side.log.events for side in sides):
         contents = [f"{side.place}/events" for side in sides if side.log.events]
-        tabs["Events"] = [rrb.TextLogView(origin="/", contents=contents, name="events")]
+        tabs["Events"] = [panels.events(contents)]
     tabs["About"] = [rrb.TextDocumentView(origin="/about", name="about this recording")]
     columns: list[Any] = [rrb.Vertical(*left, row_shares=[1.25, 1.0][: len(left)])] if left else []
     columns += [rrb.Vertical(*flight, row_shares=[1.4, 1.0, 1.0, 1.0, 1.0][: len(flight)])] if flight else []
     columns.append(rrb.Tabs(*(rrb.Vertical(*views, name=tab) for tab, views in tabs.items() if views), active_tab=0))
-    shares = [4.6] * bool(left) + [3.8] * bool(flight) + [4.1]
+    shares = panels.LEFT[len(left)] + [3.8] * bool(flight) + [4.1]
     whole = rrb.Horizontal(*columns, column_shares=shares)
     return rrb.Blueprint(whole, panels.clock(sides[0].log, span_ns), *panels.hidden())
 
@@ -102,7 +102,7 @@ def _overview(sides: Sequence[Side], sea: Sea) -> Any:
         sights.append(f"- /world{side.place}/path")
     drawn = "" if sea.exaggeration == 1.0 else f", depth drawn x {sea.exaggeration:g}"
     legend = ", ".join(side.legend for side in sides)
-    return panels.space(f"{legend}{drawn}, grid {sea.spacing:g} m", "/", sights, *sea.camera)
+    return panels.space(f"{legend}{drawn}, grid {in_words(sea.spacing)}", "/", sights, *sea.camera)
 
 
 def _overlaid(name: str, sides: Sequence[Side], legend: bool) -> Any:

@@ -95,7 +95,7 @@ def arrows(rows: Array, extent: float, world: str, colour: look.Colour = look.TE
     fastest = float(np.linalg.norm(vectors, axis=1).max())
     if not fastest > 0.0:
         return [], []
-    vectors *= 0.14 * extent / fastest
+    vectors *= 0.11 * extent / fastest
     style = dict[str, Any](colors=colour, radii=rr.Radius.ui_points(1.1))
     note = f"{look.NAMES[colour].capitalize()} arrows: current; the longest is {fastest:.2f} m/s."
     return [row(f"{world}/current", rr.Arrows3D(vectors=vectors, origins=rows[:, :3], **style))], [note]
