@@ -7,8 +7,6 @@ import fnmatch
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
 from glidercli.channels import CHANNELS, by_column
 from glidercli.compare.align import Alignment, Method, align, shifted
 from glidercli.compare.errors import Errors, statistics
@@ -19,6 +17,7 @@ from glidercli.dives import LEGS, Interval, mask, phases
 from glidercli.errors import InputError
 from glidercli.log import Log
 from glidercli.residuals import Residuals, residuals
+from glidercli.utc import to_second
 
 __all__ = ["Comparison", "Run", "Side", "compare", "matching"]
 
@@ -230,11 +229,7 @@ def _nothing(
     measured: Log, simulated: Log, errors: Mapping[str, Residuals], shift: float, max_gap: float, name: str
 ) -> str:
     """Why no sample could be compared, and what could help."""
-    first, last = (
-        f"{np.datetime64(log.start_ns, 'ns').astype('datetime64[s]')} to "
-        f"{np.datetime64(log.end_ns, 'ns').astype('datetime64[s]')}"
-        for log in (simulated, measured)
-    )
+    first, last = (f"{to_second(log.start_ns)} to {to_second(log.end_ns)}" for log in (simulated, measured))
     if any(error.gap for error in errors.values()):
         return f"every measured sample lies outside or in a gap of more than {max_gap:g} s; try a longer --max-gap"
     return (

@@ -1,4 +1,4 @@
-"""What of a Log's metadata can a viewer draw? Numbers, the hull's size, where its mass is, where it was, the bottom."""
+"""What can a viewer draw of a Log beside its samples? Hull and movable mass, the origin of places, the bottom."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ import math
 
 from glidercli.log import Log
 
-__all__ = ["bottom", "drawn_eccentricity", "hull_size", "mass_notes", "number", "origin", "slide_zero"]
+__all__ = [
+    "bottom", "drawn_eccentricity", "hull_size", "mass_notes", "moves_mass", "number", "origin", "slide_zero",
+]  # fmt: skip
 
 STAND_IN = (2.0, 0.22)  # m, length and diameter of a usual glider
 
@@ -30,7 +32,7 @@ def hull_size(log: Log) -> tuple[float, float, bool]:
 
 def drawn_eccentricity(diameter: float) -> float:
     """How far from the hull's axis the movable mass is drawn, m, so that its rotation is seen."""
-    return 0.32 * diameter
+    return 0.25 * diameter
 
 
 def slide_zero(log: Log) -> float:
@@ -44,9 +46,14 @@ def slide_zero(log: Log) -> float:
     return float(0.5 * values.min() + 0.5 * values.max())
 
 
+def moves_mass(log: Log) -> bool:
+    """Whether the log has a sample of where the movable mass is."""
+    return any(name in log and len(log[name]) for name in ("mass_position", "mass_rotation"))
+
+
 def mass_notes(log: Log) -> list[str]:
     """What a viewer of the movable mass must know; nothing where the log does not move one."""
-    if not any(name in log and len(log[name]) for name in ("mass_position", "mass_rotation")):
+    if not moves_mass(log):
         return []
     true, drawn = number(log, "movable_eccentricity_m"), drawn_eccentricity(hull_size(log)[1])
     told = f"exaggerated: {drawn:.3f} m for a true {true:g} m" if true is not None else "not to scale: it is unknown"

@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.log import Log
-from glidercli.logio.drawable import hull_size, number
+from glidercli.logio.drawable import drawn_eccentricity, hull_size, mass_notes, moves_mass, slide_zero
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun.settling import row
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
-__all__ = ["hull", "hull_notes", "rail", "slide_zero"]
+__all__ = ["hull", "hull_notes", "rail"]
 
 Array = NDArray[np.float64]
 
@@ -49,9 +49,9 @@ def hull(log: Log, vehicle: str, colour: look.Colour | None = None) -> Iterator[
     edges = [corners[[*range(base, base + 4), base]] for base in (0, 4, 8)]  # they show where a fin is seen edge on
     yield row(f"{body}/fins/edges", rr.LineStrips3D(edges, colors=fins[:3], radii=rr.Radius.ui_points(1.2)))
     yield from _compass(vehicle, length)
-    if _moves(log):
+    if moves_mass(log):
         size = dict[str, Any](half_sizes=[[0.08 * length, 0.28 * diameter, 0.16 * diameter]])
-        size["centers"] = [[0, 0, _drawn_eccentricity(diameter)]]
+        size["centers"] = [[0, 0, drawn_eccentricity(diameter)]]
         yield row(f"{body}/slide/turn/mass", rr.Boxes3D(colors=look.MASS, fill_mode="solid", **size))
         edges_only = rr.Boxes3D(colors=look.MASS, radii=rr.Radius.ui_points(0.8), **size)
         yield row(f"{body}/slide/turn/mass/edges", edges_only)
@@ -107,31 +107,4 @@ def hull_notes(log: Log) -> list[str]:
     whose = f"Hull of {name}" if name else "Hull" if own else "A generic hull"
     doubt = "" if own else " NOT TO SCALE: the log does not say the vehicle's size."
     notes = [f"{whose}, drawn {length:g} m x {diameter:g} m; wings and tail are only a sketch.{doubt}"]
-    if not _moves(log):
-        return notes
-    true, drawn = number(log, "movable_eccentricity_m"), _drawn_eccentricity(diameter)
-    told = f"exaggerated: {drawn:.3f} m for a true {true:g} m" if true is not None else "not to scale: it is unknown"
-    notes.append(f"Red: the movable mass. Its distance from the hull's axis is drawn {told}.")
-    if "mass_position" in log and not _zero_known(log):
-        notes.append("Where its zero lies in the hull is unknown: it is drawn about the middle of its range.")
-    return notes
-
-
-def slide_zero(log: Log) -> float:
-    """What is taken from a mass position so that it can be drawn, m."""
-    if _zero_known(log):
-        return 0.0
-    values = log["mass_position"].values
-    return float(0.5 * (values.min() + values.max()))
-
-
-def _zero_known(log: Log) -> bool:
-    return "mass_position_zero" not in log.metadata and number(log, "movable_nominal_position_m") is not None
-
-
-def _moves(log: Log) -> bool:
-    return any(name in log and len(log[name]) for name in ("mass_position", "mass_rotation"))
-
-
-def _drawn_eccentricity(diameter: float) -> float:
-    return 0.25 * diameter
+    return notes + [f"{note[0].upper()}{note[1:]}." for note in mass_notes(log)]

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from glidercli.frames import quaternion_from_euler_arrays
 from glidercli.log import Log
-from glidercli.logio.drawable import origin
+from glidercli.logio.drawable import origin, slide_zero
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun.chart import on_chart
-from glidercli.logio.rerun.hull import hull, rail, slide_zero
+from glidercli.logio.rerun.hull import hull, rail
 from glidercli.logio.rerun.settling import columns, row
 from glidercli.logio.thinned import Thinned
 from glidercli.places import geodetic_of_track, track_of_geodetic
