@@ -42,6 +42,8 @@ CHANNELS_AT_REST = frozenset(
 """Channels of which zero is a reading like others: at the surface, in phase 0, at an actuator's own zero."""
 HELD = 3
 """So many records show that a clock was set; fewer may be garbled."""
+SHARE = 0.05
+"""So large a part of a file's records is no accident in its middle."""
 
 
 def to_ns(moments: Any) -> Times:
@@ -140,10 +142,12 @@ def _longest_increasing(time_ns: Times) -> Mask:
 def _set_clock(time_ns: Times) -> tuple[int, int]:
     """First and last time by the clock as it was set, ns.
 
-    A clock that is not set runs behind, and may do so for most of a file: of the groups of times that lie STRAY apart
-    the latest with HELD records counts; where none has as many, the largest.
+    A clock that is not set runs behind, and may do so for most of a file; once set it stays so. So of the groups of
+    times that lie STRAY apart the latest with HELD records counts, if the file ends in it or it has a SHARE of the
+    records; where there is none, the largest. time_ns : (n,), in the file's order.
     """
     ordered = np.sort(time_ns)
     groups = np.split(ordered, np.flatnonzero(np.diff(ordered) > STRAY) + 1)[::-1]
-    group = next((g for g in groups if len(g) >= HELD), max(groups, key=len))
+    held = (g for g in groups if len(g) >= HELD and (g[0] <= time_ns[-1] <= g[-1] or len(g) >= SHARE * len(ordered)))
+    group = next(held, max(groups, key=len))
     return int(group[0]), int(group[-1])

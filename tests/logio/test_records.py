@@ -87,3 +87,20 @@ def test_zeros_are_readings_where_a_record_tells_of_nothing_else() -> None:
     kept = usable(NOW + np.arange(5, dtype=np.int64), cells, dropped)
     assert kept.tolist() == [True, True, False, False, True]
     assert dropped == {"all values zero": 2}
+
+
+DAY = 86400 * 10**9
+
+
+@pytest.mark.parametrize(
+    ("days", "kept"),
+    [
+        ([0] * 200 + [9000] * 3 + [0] * 300, [True] * 200 + [False] * 3 + [True] * 300),  # a garbled date in the middle
+        ([-5000] * 400 + [0] * 20, [False] * 400 + [True] * 20),  # set at the end, and it stays so
+        ([0] * 300 + [-5000] * 100, [True] * 300 + [False] * 100),  # lost on the way
+        ([-5000] * 300 + [0] * 100 + [-5000] * 50, [False] * 300 + [True] * 100 + [False] * 50),  # set, and lost
+    ],
+)
+def test_the_clock_that_was_set_counts(days: list[int], kept: list[bool]) -> None:
+    time_ns = NOW + np.array(days, np.int64) * DAY + np.arange(len(days)) * 10**9
+    assert usable(time_ns, {"depth": np.ones(len(days))}, Counter()).tolist() == kept
