@@ -106,7 +106,9 @@ def opened(path: Path) -> Iterator[NcFile]:
             warnings.simplefilter("ignore")  # attributes that do not fit; what they would have masked is checked here
             with dataset(path) as file:
                 yield NcFile(path, file)
-    except (OSError, RuntimeError, ValueError, OverflowError) as error:
+    except (OSError, RuntimeError, ValueError, OverflowError, AttributeError) as error:
+        if isinstance(error, AttributeError) and not str(error).startswith("NetCDF:"):  # the library's, of a damage
+            raise
         raise InputError(path, f"is a NetCDF file that cannot be read: {' '.join(str(error).split())}") from None
 
 

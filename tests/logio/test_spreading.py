@@ -40,6 +40,6 @@ def killed(path: Path, format: str | None, aids: Aids) -> None:
 
 def test_a_killed_process_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(spreading, "LARGE", 0)
-    monkeypatch.setattr(spreading, "_read", killed)
+    monkeypatch.setattr(spreading, "read_one", killed)
     with pytest.raises(InputError, match=r"sea035.*: a process that read it or a file after it was killed: is memory"):
         read([SEA035], workers=2)

@@ -152,8 +152,8 @@ def scalars(path: Path) -> dict[str, tuple[Any, Any]]:
     found: dict[str, list[tuple[Any, Any]]] = {}
     for chunk in reader.stream(store=reader.recordings()[0]):
         batch = chunk.to_record_batch()
-        if chunk.is_static or "Scalars:scalars" not in batch.schema.names:
-            continue
+        if chunk.is_static or "Scalars:scalars" not in batch.schema.names or chunk.entity_path.startswith("/section/"):
+            continue  # a section shows a channel once more, at the depth of each sample
         time_ns = batch.column("utc").to_numpy(zero_copy_only=False).astype("datetime64[ns]").astype(np.int64)
         rows = batch.column("Scalars:scalars")
         if len(rows.flatten()) == len(rows):

@@ -10,6 +10,7 @@ import numpy as np
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.log import Channel, Event, Log
 from glidercli.logio import read
+from glidercli.logio.plausible import quantity_of
 from glidercli.simulation import simulate
 
 ROOT = Path(__file__).parents[2]
@@ -41,7 +42,13 @@ def full(n: int = 400) -> Log:
     """Every channel, at times that are a second and some nanoseconds apart."""
     times = START + np.cumsum(1_000_000_000 + np.arange(n) % 3)
     random = np.random.default_rng(5)
-    values = {name: random.normal(size=n) for name in CHANNELS}
+    values = {}
+    for name in CHANNELS:
+        low, high = (
+            max(quantity_of(name).low, -1000.0),
+            min(quantity_of(name).high, 1000.0 if name != "density" else 1200.0),
+        )
+        values[name] = random.uniform(low, high, size=n)
     values |= {"depth": 100.0 - 100.0 * np.cos(np.arange(n) / 40.0), "phase": (np.arange(n) // 99 % len(PHASES)) * 1.0}
     values |= {"latitude": 20.0 + 1e-5 * np.arange(n), "longitude": 115.0 - 1e-5 * np.arange(n)}
     values |= {"down": values["depth"] - 1.0}

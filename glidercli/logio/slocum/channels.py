@@ -192,8 +192,8 @@ def _extrapolated(time_ns: Times, columns: Mapping[str, Column], placed: Mask) -
     satellites = np.full(len(time_ns), np.nan)
     if SATELLITES in columns:
         sampled, latest = columns[SATELLITES].sampled, columns[SATELLITES].latest
-        next_one = np.append(sampled[1:], np.nan)
-        satellites = np.where(np.isnan(sampled), np.fmin(latest, next_one), latest)
+        lower = np.minimum(latest, np.append(latest[1:], latest[-1:]))  # NaN beside a damage
+        satellites = np.where(np.isnan(sampled), lower, latest)
     counted = (satellites >= 0.0) & (satellites < MOST_SATELLITES)
     counted |= np.isnan(satellites) & counted.any()
     blind = placed & counted & ~(satellites >= LEAST_SATELLITES)
