@@ -39,19 +39,17 @@ class Picture(NamedTuple):
     tabs: tuple[str, ...] = ()
 
 
-TRIAL = "simulate south-china-sea-2011"
 PICTURES = {
     "slocum-spiral": Picture((f"replay {LOGS}/slocum-comet-2019 -o OUT.rrd",), 3000.0, ("Sections",)),
     "slocum-water": Picture((f"replay {LOGS}/slocum-comet-2019 -o OUT.rrd",), 5150.0, ("Temperature", "Map")),
     "seaglider-dive": Picture((f"replay {LOGS}/seaglider-sg561 -o OUT.rrd",), 830.0),
-    "trial-rerun": Picture((f"{TRIAL} -o OUT.rrd",), 2700.0, ("Current",)),
+    "trial-rerun": Picture(("simulate south-china-sea-2011 -o OUT.rrd",), 2700.0, ("Current",)),
     "side-by-side": Picture(
         (
-            f"{TRIAL} -o full.mcap",
-            f"{TRIAL} --equations paper -o paper.mcap",
-            "replay full.mcap --with paper.mcap -o OUT.rrd",
+            f"simulate --controls {LOGS}/seaglider-sg561 --initial {LOGS}/seaglider-sg561 -o again.nc",
+            f"replay {LOGS}/seaglider-sg561 --with again.nc -o OUT.rrd",
         ),
-        4350.0,
+        1200.0,
     ),
 }
 
