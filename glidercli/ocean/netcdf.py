@@ -106,7 +106,7 @@ def opened(path: Path) -> Iterator[NcFile]:
             warnings.simplefilter("ignore")  # attributes that do not fit; what they would have masked is checked here
             with dataset(path) as file:
                 yield NcFile(path, file)
-    except (OSError, RuntimeError, ValueError, OverflowError) as error:
+    except (OSError, RuntimeError, ValueError, OverflowError, AttributeError) as error:  # all of them the library's
         raise InputError(path, f"is a NetCDF file that cannot be read: {' '.join(str(error).split())}") from None
 
 
