@@ -145,6 +145,13 @@ def test_the_line_that_is_shown_is_that_of_the_file(tmp_path: Path) -> None:
     assert time.endswith('; [time] format = "iso" does not fit')
 
 
+def test_a_row_after_one_that_has_no_lines_of_its_own_is_still_counted(tmp_path: Path) -> None:
+    """A field too long for the reader that counts lines, which that of the cells takes."""
+    head = "t,Depth,p,P,note"
+    path = table(tmp_path, f"{ROWS[0]},{'x' * 200_000}", "soon,1,2,3,", head=head)
+    assert "the first in row 2: 'soon'" in read_one(path)[1].warnings[0]
+
+
 def test_a_file_without_a_time_that_can_be_read_shows_the_first(tmp_path: Path, glider: Run) -> None:
     path = table(tmp_path, "01/03/2020,1,2,3", "02/03/2020,1,2,3")
     said = "t: 2 times cannot be read, the first in line 2: '01/03/2020'; [time] format = \"iso\" does not fit"

@@ -132,7 +132,10 @@ def place_of(path: Path, how: File, row: int) -> str:
             stream.readline()
         reader = csv.reader(stream, delimiter=how.separator)
         whole = (reader.line_num for fields in reader if len(fields) == width)
-        line = next(itertools.islice(whole, row + 1, None), None)  # the first is that of the names
+        try:
+            line = next(itertools.islice(whole, row + 1, None), None)  # the first is that of the names
+        except csv.Error:  # a field that is longer than this reader takes
+            line = None
     return f"row {row + 1}" if line is None else f"line {line + how.skip_lines}"
 
 
