@@ -1,4 +1,4 @@
-"""Where was it, roughly, if nothing is a fix? Positions interpolated or reckoned: for absolute salinity alone.
+"""Where was it, roughly, if nothing is a fix? Positions interpolated or reckoned: for what TEOS-10 derives alone.
 
 No sample of a channel comes from them. Absolute salinity needs a place no closer than the 4 degrees of its atlas
 (McDougall et al. 2012), and a vehicle's own reckoning is within some kilometres.

@@ -58,6 +58,11 @@ def test_a_payload_alone_tells_where_it_was() -> None:
     assert float(log.metadata["near_longitude_deg"]) == pytest.approx(16.0 + 16.03 / 60.0, abs=0.005)
     assert log["density"].values == pytest.approx(density_at(log, 16.2672, 55.4892), abs=1e-6)
     assert not {"latitude", "longitude"} & log.channels.keys()
+    near = float(log.metadata["near_latitude_deg"])
+    assert log["depth"].origin == "derived"
+    expected = -gsw.z_from_p(log["pressure"].values / 1e4, near)
+    np.testing.assert_allclose(log["depth"].values, expected, rtol=1e-9)  # the latitude is told in few digits; 45: 1e-3
+    assert "no fixes" in log.metadata["depth_note"]
 
 
 @pytest.mark.parametrize("names", [("lat", "lon"), ("profile_lat", "profile_lon")])

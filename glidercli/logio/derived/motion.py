@@ -8,6 +8,7 @@ from glidercli.channels import PHASES
 from glidercli.dives import LEGS, mask, phases
 from glidercli.log import Channel, Log
 from glidercli.logio.jumps import NOISE, RATE, beyond
+from glidercli.logio.whereabouts import Whereabouts
 from glidercli.units import DBAR
 
 __all__ = ["AFLOAT", "LONGEST_GAP", "with_motion", "with_phase"]
@@ -18,11 +19,14 @@ AFLOAT = 3.0
 """m; a turn shallower than this is at the surface: masts and antennas reach down 1 to 2 m, and waves 1 m more."""
 
 
-def with_motion(log: Log) -> Log:
-    """The log with depth (from pressure), vertical speed and phase (from depth), where it lacks them."""
+def with_motion(log: Log, near: Whereabouts | None = None) -> Log:
+    """The log with depth (from pressure), vertical speed and phase (from depth), where it lacks them.
+
+    near : positions that are no fixes, for the depth of a log without fixes.
+    """
     notes = {}
     if "depth" not in log and "pressure" in log:
-        depth, notes["depth_note"] = _depth(log)
+        depth, notes["depth_note"] = _depth(log, near)
         log = log.with_channels(depth)
     if "depth" in log and "vertical_speed" not in log:
         speed, jumps = _vertical_speed(log["depth"])
@@ -50,22 +54,25 @@ def with_phase(log: Log) -> Log:
     return log.with_channels(phase).with_metadata(phase_note=note)
 
 
-def _depth(log: Log) -> tuple[Channel, str]:
+def _depth(log: Log, near: Whereabouts | None) -> tuple[Channel, str]:
     """Depth by TEOS-10 from pressure, m, and how."""
     import gsw
 
     pressure = log["pressure"]
-    known = "latitude" in log
-    latitude = float(np.median(log["latitude"].values)) if known else 45.0
+    if "latitude" in log:
+        latitude, place = float(np.median(log["latitude"].values)), "at the median latitude"
+    elif near is not None:
+        latitude, place = near.middle[0], "at the median latitude of positions that are no fixes"
+    else:
+        latitude, place = 45.0, "at latitude 45 deg, none is known: up to 0.27 % off at the poles"
     depth = Channel("depth", pressure.time_ns, -gsw.z_from_p(pressure.values / DBAR, latitude), "derived")
-    place = "at the median latitude" if known else "at latitude 45 deg, none is known: up to 0.27 % off at the poles"
     return depth, f"derived from pressure by TEOS-10 {place}"
 
 
 def _vertical_speed(depth: Channel) -> tuple[Channel, int]:
     """Central difference of depth by time, m/s, positive down; and at how many samples it is left out since a step
     beside them is more than a glider can sink or rise. It is left out beside a long gap, too."""
-    time = depth.time_ns * 1e-9
+    time = (depth.time_ns - depth.time_ns[:1]) * 1e-9
     ahead, behind = np.diff(time)[1:], np.diff(time)[:-1]
     near = (ahead <= LONGEST_GAP) & (behind <= LONGEST_GAP)
     steps = beyond(depth.time_ns, depth.values)
