@@ -42,6 +42,7 @@ class OutputError(GliderError):
 
     def __init__(self, path: object, what: str) -> None:
         super().__init__(f"{path}: {what}")
+        self.path, self.what = path, what
 
 
 class NoSolutionError(GliderError):

@@ -13,8 +13,8 @@ from typing import Any
 from glidercli.errors import InputError, OutputError
 
 __all__ = [
-    "atomic", "check_not_inputs", "check_outputs", "cr_alone", "is_utf16", "leftovers", "metadata_path", "read_toml",
-    "readable_file",
+    "atomic", "check_not_inputs", "check_outputs", "cr_alone", "identity", "is_utf16", "leftovers", "metadata_path",
+    "read_toml", "readable_file",
 ]  # fmt: skip
 
 _LONGEST_NAME = 200
@@ -124,6 +124,10 @@ def atomic(path: Path, force: bool) -> Iterator[Path]:
         beside.touch()  # a place that cannot be written shows here, before any writer's own words
         yield beside
         os.replace(beside, target)
+    except OutputError as error:
+        if error.path != beside:
+            raise
+        raise OutputError(path, error.what) from None
     except OSError as error:
         raise OutputError(path, f"cannot be written: {error.strerror or error}") from error
     except RuntimeError as error:
@@ -132,6 +136,15 @@ def atomic(path: Path, force: bool) -> Iterator[Path]:
         raise OutputError(path, f"cannot be written: {error}; is the disk full?") from error
     finally:
         beside.unlink(missing_ok=True)
+
+
+def identity(path: Path) -> object:
+    """What a file has in common with its further names, by links of either kind; two others differ."""
+    try:
+        found = path.stat()
+    except OSError:
+        return path.resolve()
+    return found.st_dev, found.st_ino
 
 
 def leftovers(path: Path) -> list[Path]:

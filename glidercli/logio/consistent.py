@@ -37,7 +37,11 @@ def consistent(part: Part) -> Part:
             channel = part.log[name]
             spiky = spikes(channel.time_ns, channel.values / metre)
             told = f"leave the others by more than {RATE:g} m/s and {NOISE:g} m and come back"
-            part = _without(part, (name,), channel.time_ns[spiky], f"{name}: {{}} values left out that {told}", "spike")
+            if 2 * spiky.sum() < len(spiky):
+                bad = channel.time_ns[spiky]
+                part = _without(part, (name,), bad, f"{name}: {{}} values left out that {told}", "spike")
+            elif len(spiky):  # such as two sensors that take turns
+                part = _with_note(part, f"{name}: half or more of its values {told}; nothing tells which, all are kept")
     if not set(FIX) <= part.log.channels.keys():
         return part
     times, (latitude, longitude) = part.log.together(*FIX)

@@ -11,9 +11,10 @@ The most fixes that agree, each with the next, are kept; of several such choices
 these are not more than half of all, the vehicle may have been carried (01600001.dbd of dbdreader drives at 17 m/s), or
 two receivers disagree: then nothing tells what is wrong, and all are kept.
 
-A depth spike leaves the samples before it by more than 3 m/s and 2 m and comes back so within five samples. Gliders
-sink and rise at tenths of a metre per second, which leaves room for one that falls or shoots up; 2 m are noise and
-waves. A step that does not come back is no spike: the samples stay, and no speed is derived across it.
+A depth spike leaves the samples before it by more than 3 m/s and 2 m and comes back by such a step within five samples.
+Gliders sink and rise at tenths of a metre per second, which leaves room for one that falls or shoots up; 2 m are noise
+and waves. Up to five samples before the first step that does not come back, or after the last, are a spike that the
+file's end cuts. Any other such step is no spike: the samples stay, and no speed is derived across it.
 """
 
 from __future__ import annotations
@@ -39,8 +40,6 @@ NOISE = 2.0
 """m, noise of a depth sensor and waves."""
 LONGEST = 5
 """Samples of a spike."""
-OFTEN = 10
-"""Of so many samples more than one in spikes is something else, such as two sensors that take turns."""
 EARTH = 6_371_000.0
 """m, mean radius; distances by it are within 0.6 %."""
 
@@ -109,17 +108,24 @@ def beyond(time_ns: Times, depth: Array) -> Mask:
 
 
 def spikes(time_ns: Times, depth: Array) -> Mask:
-    """The samples that leave those before and come back, (n,); none where that happens all the time."""
+    """The samples that leave those before and come back, (n,), or do so where the file begins or ends."""
     found = np.zeros(len(depth), dtype=bool)
-    steps = np.where(beyond(time_ns, depth), np.sign(np.diff(depth)), 0.0)
-    back = 0
+    steps, stays, back = beyond(time_ns, depth), [], 0
     for k in np.flatnonzero(steps).tolist():
         if k < back:
             continue
         after = slice(k + 2, k + 2 + LONGEST)
         room = NOISE + RATE * (time_ns[after] - time_ns[k]) * 1e-9
-        home = (steps[k + 1 : k + 1 + LONGEST] == -steps[k]) & (np.abs(depth[after] - depth[k]) <= room)
+        home = np.abs(depth[after] - depth[k]) <= room
+        home &= steps[k + 1 : k + 1 + LONGEST]
         if home.any():
             back = k + 2 + int(home.argmax())
             found[k + 1 : back] = True
-    return found if found.sum() * OFTEN <= len(found) else np.zeros(len(depth), dtype=bool)
+        else:
+            stays.append(k)
+    if stays and len(depth) > 4 * LONGEST:  # so that most of the file is on the other side
+        if stays[0] < LONGEST:
+            found[: stays[0] + 1] = True
+        if stays[-1] >= len(depth) - 1 - LONGEST:
+            found[stays[-1] + 1 :] = True
+    return found

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from glidercli.errors import InputError
+from glidercli.files import identity
 
 __all__ = ["check_given", "passed_over"]
 
@@ -29,10 +30,10 @@ def passed_over(paths: Sequence[str | Path]) -> tuple[str, ...]:
             hidden = sorted(p.name for p in folder.iterdir() if p.name.startswith(".") and not p.is_dir())
             if hidden:
                 lines.append(f"{folder}: {_counted(hidden, 'hidden file')}")
-    first: dict[Path, Path] = {}
+    first: dict[object, Path] = {}
     again: list[tuple[Path, Path]] = []
-    for path in _reached(paths):
-        one = first.setdefault(path.resolve(), path)
+    for path in sorted(_reached(paths), key=Path.is_symlink):
+        one = first.setdefault(identity(path), path)
         if os.path.abspath(one) != os.path.abspath(path):
             again.append((path, one))
     for path, one in again[:FEW]:

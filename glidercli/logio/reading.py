@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from glidercli.errors import InputError
-from glidercli.files import readable_file
+from glidercli.files import identity, readable_file
 from glidercli.log import Log
 from glidercli.logio.alike import vehicle_of
 from glidercli.logio.companions import is_companion
@@ -143,8 +143,14 @@ def files_of(paths: Sequence[str | Path]) -> dict[Path, bool]:
             if not matches:
                 raise InputError(given, "no file matches")
             found += [(match, False) for match in sorted(matches, key=_natural)]
-    once = {path.resolve(): (path, of_folder) for path, of_folder in reversed(found)}
-    return dict(reversed(once.values()))
+    names: dict[object, Path] = {}
+    for path, _ in sorted(found, key=lambda one: one[0].is_symlink()):  # a link is read where its file is not named
+        names.setdefault(identity(path), path)
+    chosen, once = set(names.values()), dict[Path, bool]()
+    for path, of_folder in found:
+        if path in chosen:
+            once.setdefault(path, of_folder)
+    return once
 
 
 def _natural(path: Path) -> tuple[list[str | int], str]:

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from glidercli.log import Channel
 from glidercli.years import FIRST_YEAR, LAST_YEAR
 
-__all__ = ["CHANNELS_AT_REST", "NO_TIME", "YEARS", "in_order", "sampled", "to_ns", "usable"]
+__all__ = ["CHANNELS_AT_REST", "NO_TIME", "OUT_OF_ORDER", "YEARS", "in_order", "sampled", "to_ns", "usable"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -40,6 +40,8 @@ CHANNELS_AT_REST = frozenset(
     ("depth", "pressure", "phase", "mass_position", "mass_rotation", "net_buoyancy", "ballast_volume", "rudder_angle")
 )
 """Channels of which zero is a reading like others: at the surface, in phase 0, at an actuator's own zero."""
+OUT_OF_ORDER = "time goes back", "time runs ahead of those after it"
+"""Reasons for which records are dropped."""
 HELD = 3
 """So many records show that a clock was set; fewer may be garbled."""
 SHARE = 0.05
@@ -112,9 +114,9 @@ def in_order(time_ns: Times, dropped: Counter[str]) -> Mask:
         return kept
     kept = _longest_increasing(time_ns)
     latest = np.maximum.accumulate(np.where(kept, time_ns, NO_TIME))
+    back, ahead = OUT_OF_ORDER
     for time, before in zip(time_ns[~kept], latest[~kept], strict=True):
-        ahead = "time runs ahead of those after it"
-        dropped["time repeats" if time == before else "time goes back" if time < before else ahead] += 1
+        dropped["time repeats" if time == before else back if time < before else ahead] += 1
     return kept
 
 

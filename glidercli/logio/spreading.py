@@ -13,6 +13,7 @@ from glidercli.files import readable_file
 from glidercli.logio.consistent import consistent
 from glidercli.logio.formats import FORMATS, recognised
 from glidercli.logio.reader import Aids, Part
+from glidercli.logio.records import OUT_OF_ORDER
 from glidercli.logio.report import FileReport
 
 __all__ = ["read_all", "read_one"]
@@ -61,6 +62,15 @@ def read_all(
         pool.shutdown(cancel_futures=True)
 
 
+def _doubted(report: FileReport) -> FileReport:
+    """The report, with a line where most records were dropped for their order: sorted another way, or reversed?"""
+    gone = sum(count for reason, count in report.dropped if reason in OUT_OF_ORDER)
+    if 2 * gone <= report.records:
+        return report
+    line = f"{gone} of {report.records} records are not in the order of time: is it reversed, or sorted otherwise?"
+    return dataclasses.replace(report, warnings=(line, *report.warnings))
+
+
 def _deaf() -> None:
     """Leave Ctrl-C to the first process, which says how far it came."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -77,6 +87,7 @@ def read_one(path: Path, format: str | None, aids: Aids) -> Part | FileReport:
     except OSError as error:
         return FileReport(path, name, 0, 0, error=f"cannot be read: {error.strerror or error}")
     if any(map(len, part.log.channels.values())):
-        return part if FORMATS[name].own else consistent(part)
+        part = part if FORMATS[name].own else consistent(part)
+        return dataclasses.replace(part, report=_doubted(part.report))
     why = ", ".join(f"{count} {reason}" for reason, count in part.report.dropped)
     return dataclasses.replace(part.report, error=part.report.error or "no usable record" + (f": {why}" if why else ""))

@@ -102,7 +102,7 @@ def test_hidden_files_and_links_are_named(glider: Run, glider_json: Callable[...
     (tmp_path / ".folder").mkdir()
     told = [
         f"{tmp_path}: 1 hidden file: .sea035.12.gli.sub.38",
-        f"{tmp_path / name}: the same file as {tmp_path / 'again'}, by a link; read once",
+        f"{tmp_path / 'again'}: the same file as {tmp_path / name}, by a link; read once",
     ]
     for command in ("info", "replay"):
         document = glider_json(command, tmp_path)

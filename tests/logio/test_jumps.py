@@ -152,7 +152,10 @@ def dive() -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     return time_ns, 0.5 * np.arange(200)
 
 
-@pytest.mark.parametrize("rows", [[50], [50, 51, 52], [20, 120]])
+@pytest.mark.parametrize(
+    "rows",
+    [[50], [50, 51, 52], [20, 120], [0], [0, 1], [199], [198, 199], list(range(0, 200, 9)), list(range(3, 200, 7))],
+)
 @pytest.mark.parametrize("by", [150.0, -40.0])
 def test_spikes_of_depth_and_pressure_are_left_out_and_no_speed_comes_of_them(rows: list[int], by: float) -> None:
     time_ns, depth = dive()
@@ -183,10 +186,18 @@ def test_a_step_that_does_not_come_back_stays_without_a_speed_or_a_way() -> None
     assert moved["north"].values[-1] < 200 * 0.5 / np.tan(0.4)  # 100 m of depth, not 180
 
 
-def test_two_sensors_that_take_turns_are_no_spikes() -> None:
+def test_spikes_beside_one_another_on_either_side_are_left_out() -> None:
+    time_ns, depth = dive()
+    depth[50], depth[51], depth[120], depth[121] = -8.0, 1000.0, 900.0, 0.0
+    assert np.flatnonzero(spikes(time_ns, depth)).tolist() == [50, 51, 120, 121]
+
+
+def test_two_sensors_that_take_turns_both_stay_and_it_is_said() -> None:
     time_ns, depth = dive()
     depth[::2] += 100.0
-    assert not spikes(time_ns, depth).any()
+    part = consistent(part_of([Channel("depth", time_ns, depth)]))
+    assert len(part.log["depth"]) == 200
+    assert "all are kept" in part.report.warnings[0]
 
 
 @pytest.mark.parametrize("folder", ["logs/seaglider-sg561", "logs/slocum-comet-2019", "logs/seaexplorer-sea035"])

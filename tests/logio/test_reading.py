@@ -159,3 +159,24 @@ def test_tables_with_times_of_another_age_are_named(tmp_path: Path) -> None:
     pd.DataFrame({"time_utc": ["2604-02-06T09:40:00Z"], "depth_m": [1.0]}).to_parquet(tmp_path / "a.parquet")
     with pytest.raises(InputError, match="1 times cannot be read, the first in row 1: '2604-02-06T09:40:00Z'"):
         read([tmp_path / "a.parquet"])
+
+
+@pytest.mark.parametrize("link", ["symlink_to", "hardlink_to"])
+def test_a_file_with_two_names_is_read_once_under_its_own(tmp_path: Path, link: str) -> None:
+    """A link that sorts first does not hide the name that tells the vehicle."""
+    name = "sea063.22.gli.sub.121.gz"
+    shutil.copy(ROOT / "tests/data/seaexplorer" / name, tmp_path)
+    getattr(tmp_path / "z.gz", link)(tmp_path / name)
+    (tmp_path / "a.gz").symlink_to(tmp_path / name)
+    for given in ([tmp_path], [tmp_path / "z.gz", tmp_path / name, tmp_path / "a.gz"]):
+        files = read(given).files
+        assert len(files) == 1
+        assert link == "hardlink_to" or files[0].path == tmp_path / name
+
+
+def test_a_file_in_reverse_is_doubted(tmp_path: Path) -> None:
+    rows = [f"2020-01-01T00:00:{second:02d}Z,{second}.5,measured" for second in reversed(range(50))]
+    (tmp_path / "a.csv").write_text("\n".join(["time_utc,depth_m,origin", *rows]) + "\n")
+    (report,) = read([tmp_path / "a.csv"]).files
+    assert report.kept == 1
+    assert "49 of 50 records are not in the order of time" in report.warnings[0]

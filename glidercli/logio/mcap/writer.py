@@ -16,6 +16,7 @@ from glidercli.log import Log
 from glidercli.logio.mcap.contents import Contents
 from glidercli.logio.mcap.file import McapFile
 from glidercli.provenance import version
+from glidercli.utc import iso
 
 __all__ = ["AT_THE_END", "FORMAT", "FORMATS", "McapLog", "write_mcap"]
 
@@ -73,7 +74,7 @@ class McapLog:
     def _check(self, log: Log) -> None:
         times = [int(c.time_ns[0]) for c in log.channels.values() if len(c)] + [event.time_ns for event in log.events]
         if min(times, default=0) < 0:
-            raise OutputError(self._path, f"MCAP times start at 1970; the log starts at {min(times)} ns, before that")
+            raise OutputError(self._path, f"MCAP starts at 1970, the log at {iso(min(times))}; .nc takes it")
 
     def _tell(self, log: Log) -> None:
         """Write metadata and attachments, those that are not yet there as they are now."""

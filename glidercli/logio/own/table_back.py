@@ -81,7 +81,8 @@ def part_of(
     }
     told = texts_of(metadata) if metadata else {}
     if not table.dated:
-        told["time_note"] = "the date is arbitrary: the table has elapsed_s alone"
+        told["time_note"] = "the date, from 2000-01-01 on, is arbitrary: the table has elapsed_s alone"
+        warnings = [*warnings, told["time_note"]]
     if not metadata and table.word is None:
         told["origin_note"] = "taken as measured: the table does not say where its values come from"
         warnings = [*warnings, told["origin_note"]]
