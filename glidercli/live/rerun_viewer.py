@@ -27,6 +27,8 @@ PORT = 9876
 """Where Rerun's own viewers listen if nothing else is said."""
 LONGEST_START = 30.0
 """s that a viewer may take until it listens."""
+QUIET = "notebook=1&hide_welcome_screen=1"
+"""So that the page sends no telemetry and asks for no examples and releases; fonts it asks for all the same."""
 PR_SET_PDEATHSIG = 1
 """From <linux/prctl.h>: the signal that a process gets when its parent ends."""
 LONGEST_END = 3.0
@@ -37,15 +39,17 @@ class RerunViewer:
     """The Rerun viewer; it is started at once, and ended by ``close``.
 
     web : as a page at ``address``, else as a window. port : of that page, None for the usual one or another.
-    following : whether its clock goes with what comes. Raises InputError where it does not start.
+    following : whether its clock goes with what comes. paced : whether the whole is known before it is played; sections
+    of the water, which stand in time, are then left out, for they would take the clock to their end.
+    Raises InputError where it does not start.
     """
 
     starts_over = True
 
-    def __init__(self, web: bool, port: int | None, following: bool) -> None:
+    def __init__(self, web: bool, port: int | None, following: bool, paced: bool) -> None:
         self.name = "the Rerun web viewer" if web else "the Rerun viewer"
         self.address = ""
-        self._following = following
+        self._following, self._paced = following, paced
         self._contents: Contents | None = None
         self._stream: RerunStream | None = None
         with taken(None, PORT) as held:
@@ -53,9 +57,7 @@ class RerunViewer:
             command = [str(_binary()), "--bind", HOST, "--port", str(feed)]
             if web:
                 with taken(port, WEB_PORT) as page:
-                    self.address = (
-                        f"http://{HOST}:{page.getsockname()[1]}/?url=rerun%2Bhttp%3A%2F%2F{HOST}%3A{feed}%2Fproxy"
-                    )
+                    self.address = f"http://{HOST}:{page.getsockname()[1]}/?{QUIET}&url=rerun%2Bhttp%3A%2F%2F{HOST}%3A{feed}%2Fproxy"
                     command += ["--serve-web", "--web-viewer-port", str(page.getsockname()[1])]
                     command += ["--server-memory-limit", "75%"]
             else:
@@ -103,7 +105,7 @@ class RerunViewer:
         drawn = Contents(whole.sliced(None, None))
         for _ in drawn.samples(whole):
             pass
-        stream.whole(drawn, log, self._following, panels)
+        stream.whole(drawn, log, self._following, panels, sections=not self._paced)
 
     def clock(self, time_ns: int) -> None:
         """Nothing: the viewer's clock follows what comes."""

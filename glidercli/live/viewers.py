@@ -135,7 +135,7 @@ def opened(log: Log, choices: Choices, tell: Callable[[str], None]) -> Iterator[
             tell(f"Foxglove, Lichtblick: open a connection, Foxglove WebSocket, {viewers.websocket.server.address}")
         following = choices.follow or choices.pace is not None
         for web in [True] * choices.serve + [False] * choices.spawn:
-            viewer = RerunViewer(web, choices.port, following)
+            viewer = RerunViewer(web, choices.port, following, choices.pace is not None)
             started(viewer)
             if web:
                 tell(f"Rerun: open {viewer.address} in a browser; Ctrl-C ends it")

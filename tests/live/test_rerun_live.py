@@ -243,7 +243,7 @@ def test_the_viewer_that_a_window_would_show_gets_the_log(tmp_path: Path, monkey
     monkeypatch.setattr(rerun_viewer, "_binary", lambda: program)
     log = read([DIVE]).log
     try:
-        viewer = rerun_viewer.RerunViewer(web=False, port=None, following=False)
+        viewer = rerun_viewer.RerunViewer(web=False, port=None, following=False, paced=False)
     except InputError as error:
         pytest.skip(f"it does not start here: {error}")
     try:

@@ -261,7 +261,7 @@ def test_the_movable_mass_slides_and_turns_in_the_hull(tmp_path: Path) -> None:
     assert entity.frame_id == "base_link_fsd"
     (mass,), rod = entity.cylinders, entity.lines[0]
     gamma = np.linspace(0.0, math.pi / 4, N)[4]  # held after its last sample
-    arm = 0.32 * 0.2
+    arm = 0.25 * 0.2
     expected = [0.42, -arm * math.sin(gamma), arm * math.cos(gamma)]  # (r_rx, -Rr sin gamma, Rr cos gamma)
     centre = [mass.pose.position.x, mass.pose.position.y, mass.pose.position.z]
     np.testing.assert_allclose(centre, expected, atol=1e-15 * 4)  # a few roundings of numbers below 1

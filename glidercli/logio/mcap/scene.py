@@ -63,10 +63,11 @@ class Scene:
             topics.append(shapes.fixes(fixes, -at_these(piece, "depth", fixes[0], np.nan)))
         place, attitude = _place(piece), _attitude(piece)
         times = moving([(self._place, place), (self._attitude, attitude)])
-        if not times.size:
+        if self._start_ns is None and not times.size:
             return topics
-        motion = times, [*self._place.at(times, (0.0, 0.0, 0.0)), *self._attitude.at(times, LEVEL)]
-        topics = [shapes.transforms(motion), shapes.places(motion), *_poses(place, attitude), *topics]
+        if times.size:
+            motion = times, [*self._place.at(times, (0.0, 0.0, 0.0)), *self._attitude.at(times, LEVEL)]
+            topics = [shapes.transforms(motion), shapes.places(motion), *_poses(place, attitude), *topics]
         if self._start_ns is None:
             self._start_ns = int(times[0])
             topics = [

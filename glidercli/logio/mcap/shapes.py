@@ -84,19 +84,23 @@ def map_track(log: Log, way: Array, fixed: Array, time_ns: int) -> list[Messages
     from foxglove_schemas_protobuf.GeoJSON_pb2 import GeoJSON
 
     latitude_0, longitude_0 = number(log, "origin_latitude_deg"), number(log, "origin_longitude_deg")
-    if len(way) and latitude_0 is not None and longitude_0 is not None:
+    reckoned = len(way) > 0 and latitude_0 is not None and longitude_0 is not None
+    if latitude_0 is not None and longitude_0 is not None and reckoned:
         latitude, longitude = geodetic_of_track(way[:, 0], way[:, 1], latitude_0, longitude_0)
     elif len(fixed):
         latitude, longitude = fixed.T
     else:
         return []
     line = np.stack([longitude, latitude], axis=-1)
-    points = line[np.isfinite(line).all(axis=-1)].tolist()
-    if not points:
+    points = line[np.isfinite(line).all(axis=-1)]
+    if not len(points):
         return []
-    kind, places = ("LineString", points) if len(points) > 1 else ("Point", points[0])
+    legs = np.split(points, np.flatnonzero(np.abs(np.diff(points[:, 0])) > 180.0) + 1)  # it goes on at 180 degrees
+    lines = [leg.tolist() for leg in legs if len(leg) > 1]
+    kind, places = ("MultiLineString", lines) if lines else ("Point", points[0].tolist())
     style = {"color": "#3399ff", "weight": 3}
-    told = {"name": f"track ({log.kind})", "style": style}
+    shown = log["north"].origin if reckoned else log["latitude"].origin
+    told = {"name": f"track ({log.kind if shown == log.origin else shown.upper()})", "style": style}
     feature = {"type": "Feature", "properties": told, "geometry": {"type": kind, "coordinates": places}}
     text = json.dumps({"type": "FeatureCollection", "features": [feature]}, allow_nan=False)
     return [single("/map/track", time_ns, GeoJSON(geojson=text))]

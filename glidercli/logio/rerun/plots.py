@@ -6,17 +6,22 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from glidercli.channels import CHANNELS, PHASES
-from glidercli.log import Log
+from glidercli.log import Channel, Log
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun.panels import COLOURS, series_name
 from glidercli.logio.rerun.settling import columns, row
+from glidercli.residuals import usual_gap
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
 __all__ = ["Plots"]
+
+Array = NDArray[np.float64]
+Times = NDArray[np.int64]
 
 
 class Plots:
@@ -49,18 +54,20 @@ class Plots:
             entity = self._entity(name)
             colour = self._colour or COLOURS.get(name, look.GREY)
             style: dict[str, Any] = {"names": self._label or series_name(name), "colors": colour}
+            # of the samples that fall on a pixel the extremes are drawn, not the mean
+            line = dict[str, Any](aggregation_policy=rr.components.AggregationPolicy.MinMax)
             if name == "phase":
                 yield row(entity, rr.StateConfiguration(values=PHASES, colors=[*look.PHASE_COLOURS.values()]))
             elif name == "heading":
                 yield row(entity, rr.SeriesPoints(marker_sizes=1.2, markers="circle", **style))
             elif name == "depth" and self._by_phase:
                 del style["colors"]  # what stands still would hide what changes
-                yield row(entity, rr.SeriesLines(widths=2.0, **style))
+                yield row(entity, rr.SeriesLines(widths=2.0, **line, **style))
             else:
-                yield row(entity, rr.SeriesLines(widths=1.5, **style))
+                yield row(entity, rr.SeriesLines(widths=1.5, **line, **style))
 
     def values(self, piece: Log) -> Iterator[Chunk]:
-        """The samples of a piece; of phases those that begin one."""
+        """The samples of a piece, NaN at each gap, which breaks the line; of phases those that begin one."""
         import rerun as rr
 
         for name in self._names:
@@ -71,7 +78,8 @@ class Plots:
                 yield from self._states(piece)
                 continue
             values = channel.values * (-1.0 if name == "depth" else CHANNELS[name].factor)
-            yield columns(self._entity(name), self._zero_ns, channel.time_ns, rr.Scalars.columns(scalars=values))
+            times, drawn = _broken(channel, values)
+            yield columns(self._entity(name), self._zero_ns, times, rr.Scalars.columns(scalars=drawn))
 
     def _states(self, piece: Log) -> Iterator[Chunk]:
         """Phases where they begin, and the colour of depth from there on."""
@@ -95,3 +103,10 @@ class Plots:
 
     def _entity(self, name: str) -> str:
         return f"{self._place}/{CHANNELS[name].group}/{name}"
+
+
+def _broken(channel: Channel, values: Array) -> tuple[Times, Array]:
+    """Times and values with NaN a nanosecond after each sample that a gap follows."""
+    before = np.flatnonzero(np.diff(channel.time_ns) > usual_gap(channel) * 1e9)
+    times = np.insert(channel.time_ns, before + 1, channel.time_ns[before] + 1)
+    return times, np.insert(values, before + 1, np.nan)

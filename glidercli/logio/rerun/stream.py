@@ -48,19 +48,19 @@ class RerunStream:
                 self._send(chunks)
         self._send(contents.events(piece.events))
 
-    def whole(self, contents: Contents, log: Log, following: bool, panels: bool) -> None:
+    def whole(self, contents: Contents, log: Log, following: bool, panels: bool, sections: bool) -> None:
         """Send what shows the whole, but events.
 
         following : whether the viewer's clock goes with what comes. panels : whether they are arranged anew, and the
-        water's sections drawn anew.
+        water's sections drawn anew. sections : whether there are any.
         """
         import rerun as rr
         import rerun.blueprint as rrb
 
         if panels:
             self._times += 1
-        sections = f"/section/{self._times}" if panels else None
-        chunks, views = contents.whole(log, events=False, sections=sections)
+        entity = f"/section/{self._times}" if panels and sections else None
+        chunks, views = contents.whole(log, events=False, sections=entity)
         self._send(chunks)
         if panels:
             if following:

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
 __all__ = ["RerunLog", "write_rerun"]
 
+PATIENCE = 60.0
+"""s; a piece takes tenths of one. Rerun waits without end for a writer that a full disk ended in the wrong moment."""
+
 
 def write_rerun(log: Log, path: Path, beside: Sequence[Log] = (), names: Sequence[str] = ()) -> None:
     """Write the log to `path` as a Rerun recording with its blueprint; the same log gives the same bytes.
@@ -108,7 +111,7 @@ class RerunLog:
 
     def _flush(self) -> None:
         try:
-            self._recording.flush()
+            self._recording.flush(timeout_sec=PATIENCE)
         except RuntimeError:  # all that Rerun tells
             raise OSError(errno.ENOSPC, "the writer of Rerun gave up; is the disk full?") from None
 
