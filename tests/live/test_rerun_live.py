@@ -69,7 +69,8 @@ def saved(feed: int, path: Path) -> dict[str, tuple[np.ndarray, np.ndarray]]:
             if "Scalars:scalars" in (batch := chunk.to_record_batch()).schema.names:
                 times = batch.column("utc").to_numpy(zero_copy_only=False).astype("datetime64[ns]").astype(np.int64)
                 values = batch.column("Scalars:scalars").values.to_numpy(zero_copy_only=False)
-                chunks.setdefault(chunk.entity_path.split("/")[-1], []).append((times, values))
+                sampled = ~np.isnan(values)  # NaN breaks a line at a gap
+                chunks.setdefault(chunk.entity_path.split("/")[-1], []).append((times[sampled], values[sampled]))
     found = {}
     for name, parts in chunks.items():
         times, values = (np.concatenate(column) for column in zip(*parts, strict=True))

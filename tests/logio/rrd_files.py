@@ -50,6 +50,14 @@ def rows(path: Path, entity: str, component: str) -> tuple[Any, Any, list[Any]]:
     raise KeyError(f"{entity} {component}")
 
 
+def samples(path: Path, entity: str) -> tuple[Any, Any, Any]:
+    """Times in both timelines and numbers of a line, without the NaN that break it at gaps."""
+    utc, elapsed, values = rows(path, entity, "Scalars:scalars")
+    numbers = np.ravel(values)
+    sampled = ~np.isnan(numbers)
+    return utc[sampled], elapsed[sampled], numbers[sampled]
+
+
 def panels(path: Path) -> set[str]:
     """Names of the views in the file's blueprint."""
     name = "ViewBlueprint:display_name"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 import subprocess
@@ -21,6 +22,7 @@ from mcap.reader import make_reader
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.log import Channel, Event, Log
 from glidercli.logio.mcap.contents import statement
+from glidercli.logio.mcap.scene import Scene
 from glidercli.logio.mcap.writer import write_mcap
 
 PYMCAP = Path(sys.executable).with_name("pymcap-cli")
@@ -269,7 +271,7 @@ def test_the_movable_mass_slides_and_turns_in_the_hull(tmp_path: Path) -> None:
     ends = [[p.x, p.y, p.z] for p in rod.points]
     assert ends == [[0.42, 0.0, 0.0], centre]
     told_lines = [m.message for _, m in found["/log"]]
-    assert any("drawn exaggerated: 0.064 m for a true 0.014 m" in text for text in told_lines)
+    assert any("drawn exaggerated: 0.050 m for a true 0.014 m" in text for text in told_lines)
 
 
 def test_a_mass_with_an_unknown_zero_is_drawn_about_its_middle_and_told(tmp_path: Path) -> None:
@@ -386,3 +388,28 @@ def test_depth_averaged_currents_stand_above_their_dives(tmp_path: Path) -> None
     (arrow,) = own["/viz/current_average"][0][1].entities[0].arrows
     np.testing.assert_allclose(rotated(arrow.pose.orientation, [1.0, 0.0, 0.0]), [1.0, 0.0, 0.0], atol=1e-15 * 8)
     assert any("as the vehicle's own software tells it" in m.message for _, m in own["/log"])
+
+
+def test_what_moves_in_the_hull_is_there_where_nothing_tells_a_place(tmp_path: Path) -> None:
+    """A piece with samples of the movable mass alone, as a play at a slow pace makes them."""
+    log = moving_log()
+    times = np.append(log["mass_position"].time_ns, log.end_ns + np.arange(1, 4) * 10**9)
+    log = log.with_channels(Channel("mass_position", times, np.linspace(0.3, 0.4, len(times)), "simulated"))
+    scene = Scene(log)
+    pieces = [log.sliced(None, int(times[-3])), log.sliced(int(times[-3]), None)]
+    assert "depth" not in pieces[1].channels or not len(pieces[1]["depth"])
+    drawn = [topic for piece in pieces for topic in scene.topics(piece) if topic.name == "/viz/movable_mass"]
+    assert np.concatenate([topic.time_ns for topic in drawn])[-3:].tolist() == times[-3:].tolist()
+
+
+def test_the_map_goes_on_at_180_degrees(tmp_path: Path) -> None:
+    log = full_log()
+    log = log.with_channels(
+        channel("longitude", (179.9998 + np.arange(N) * 1e-5 + 180.0) % 360.0 - 180.0),
+    )
+    log = Log({name: c for name, c in log.channels.items() if name not in ("north", "east")}, log.origin, {})
+    (feature,) = json.loads(written(log, tmp_path / "a.mcap")["/map/track"][0][1].geojson)["features"]
+    geometry = feature["geometry"]
+    lines = geometry["coordinates"] if geometry["type"] == "MultiLineString" else [geometry["coordinates"]]
+    assert (len(lines), sum(map(len, lines))) == (2, N)
+    assert all(abs(b[0] - a[0]) < 1.0 for line in lines for a, b in itertools.pairwise(line))

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from rrd_files import START, channel, log_of, page, panels, rows, stored, told_by_the_verifier, written
+from rrd_files import START, channel, log_of, page, panels, rows, samples, stored, told_by_the_verifier, written
 
 from glidercli.channels import CHANNELS
 from glidercli.errors import InputError
@@ -76,11 +76,11 @@ def test_samples_of_each_log_come_back(measured: Log, simulated: Log, tmp_path: 
             if name == "phase":
                 continue
             entity = f"{place}/{CHANNELS[name].group}/{name}"
-            utc, elapsed, values = rows(path, entity, "Scalars:scalars")
+            utc, elapsed, values = samples(path, entity)
             np.testing.assert_array_equal(utc, sent.time_ns)
             np.testing.assert_array_equal(elapsed, sent.time_ns - START)
             factor = -1.0 if name == "depth" else CHANNELS[name].factor
-            np.testing.assert_array_equal(np.ravel(values), sent.values * factor)
+            np.testing.assert_array_equal(values, sent.values * factor)
             kind = "SeriesPoints" if name == "heading" else "SeriesLines"
             assert rows(path, entity, f"{kind}:names")[2] == [[log.kind]]
             packed = look.packed(np.array([colour], np.uint8)).tolist()
@@ -102,7 +102,7 @@ def test_track_is_brought_to_the_origin_of_the_first(measured: Log, simulated: L
 def test_logs_of_other_days_start_together(measured: Log, simulated: Log, tmp_path: Path) -> None:
     later = simulated.shifted(86400 * 10**9)
     path = written(measured, tmp_path, beside=[later])
-    utc, elapsed, _ = rows(path, "/beside/1/navigation/depth", "Scalars:scalars")
+    utc, elapsed, _ = samples(path, "/beside/1/navigation/depth")
     assert (utc[0], elapsed[0]) == (START, 0)
     assert "does not overlap in UTC, so both start at elapsed 0" in page(path)
     assert "shifted by -86430.000 s" in page(path)

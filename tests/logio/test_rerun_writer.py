@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rrd_files import START, channel, log_of, page, panels, rows, sights, told_by_the_verifier, written
+from rrd_files import START, channel, log_of, page, panels, rows, samples, sights, told_by_the_verifier, written
 
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import OutputError
@@ -70,11 +70,11 @@ def test_every_sample_comes_back(name: str, request: pytest.FixtureRequest, tmp_
         if name == "phase":
             continue
         spec = CHANNELS[name]
-        utc, elapsed, values = rows(path, f"/{spec.group}/{name}", "Scalars:scalars")
+        utc, elapsed, values = samples(path, f"/{spec.group}/{name}")
         np.testing.assert_array_equal(utc, sent.time_ns)
         np.testing.assert_array_equal(elapsed, sent.time_ns - log.start_ns)
         factor = -1.0 if name == "depth" else spec.factor
-        np.testing.assert_array_equal(np.ravel(values), sent.values * factor)
+        np.testing.assert_array_equal(values, sent.values * factor)
 
 
 def test_phases_stand_where_they_change(spiral: Log, tmp_path: Path) -> None:
@@ -236,3 +236,12 @@ def test_log_without_a_sample_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("data", "seed", "value"), [(b"", 0, 0x02CC5D05), (b"abc", 0, 0x32D153FF)])
 def test_checksum_has_its_published_values(data: bytes, seed: int, value: int) -> None:
     assert _xxh32(data, seed) == value
+
+
+def test_a_line_breaks_at_a_gap(tmp_path: Path) -> None:
+    """A nanosecond after the last sample before it, with NaN, which is drawn as nothing."""
+    seconds = [0.0, 10.0, 20.0, 2000.0, 2010.0]
+    path = written(log_of([channel("pitch", seconds, np.arange(5) * 0.1)], "measured", {}), tmp_path)
+    _, elapsed, values = rows(path, "/attitude/pitch", "Scalars:scalars")
+    assert elapsed.tolist() == [0, 10**10, 2 * 10**10, 2 * 10**10 + 1, 2000 * 10**9, 2010 * 10**9]
+    assert np.isnan(np.ravel(values)).tolist() == [False] * 3 + [True] + [False] * 2

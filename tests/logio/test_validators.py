@@ -158,5 +158,6 @@ def scalars(path: Path) -> dict[str, tuple[Any, Any]]:
         rows = batch.column("Scalars:scalars")
         if len(rows.flatten()) == len(rows):
             values = rows.flatten().to_numpy(zero_copy_only=False)
-            found.setdefault(chunk.entity_path.rsplit("/", 1)[-1], []).append((time_ns, values))
+            sampled = ~np.isnan(values)  # NaN breaks the line at a gap, and is no sample
+            found.setdefault(chunk.entity_path.rsplit("/", 1)[-1], []).append((time_ns[sampled], values[sampled]))
     return {name: tuple(np.concatenate(part) for part in zip(*parts, strict=True)) for name, parts in found.items()}

@@ -97,7 +97,8 @@ def map_track(log: Log, way: Array, fixed: Array, time_ns: int) -> list[Messages
         return []
     legs = np.split(points, np.flatnonzero(np.abs(np.diff(points[:, 0])) > 180.0) + 1)  # it goes on at 180 degrees
     lines = [leg.tolist() for leg in legs if len(leg) > 1]
-    kind, places = ("MultiLineString", lines) if lines else ("Point", points[0].tolist())
+    kinds = {0: ("Point", points[0].tolist()), 1: ("LineString", lines[0] if lines else [])}
+    kind, places = kinds.get(len(lines), ("MultiLineString", lines))
     style = {"color": "#3399ff", "weight": 3}
     shown = log["north"].origin if reckoned else log["latitude"].origin
     told = {"name": f"track ({log.kind if shown == log.origin else shown.upper()})", "style": style}
