@@ -27,7 +27,7 @@ DIVE = SEA035 / "sea035.12.gli.sub.37"
 
 def ports(run: Running) -> tuple[int, int]:
     """Where the page and the data are served."""
-    found = run.wait_for_line(r"http://127\.0\.0\.1:(\d+)/\?url=rerun%2Bhttp%3A%2F%2F127\.0\.0\.1%3A(\d+)%2Fproxy")
+    found = run.wait_for_line(r"http://127\.0\.0\.1:(\d+)/\?\S*url=rerun%2Bhttp%3A%2F%2F127\.0\.0\.1%3A(\d+)%2Fproxy")
     return int(found[1]), int(found[2])
 
 
