@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import ctypes
 import errno
 import hashlib
 import json
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["RerunLog", "write_rerun"]
 
-PATIENCE = 60.0
+PATIENCE = 30.0
 """s; a piece takes tenths of one. Rerun waits without end for a writer that a full disk ended in the wrong moment."""
 
 
@@ -113,7 +115,15 @@ class RerunLog:
         try:
             self._recording.flush(timeout_sec=PATIENCE)
         except RuntimeError:  # all that Rerun tells
+            self._abandon()
             raise OSError(errno.ENOSPC, "the writer of Rerun gave up; is the disk full?") from None
+
+    def _abandon(self) -> None:
+        """Never close the recording: that, as Rerun's own end, waits for a writer that is gone, without end."""
+        import rerun as rr
+
+        atexit.unregister(rr.rerun_shutdown)
+        ctypes.pythonapi.Py_IncRef(ctypes.py_object(self._recording))  # so that nothing deletes it
 
     def _tell(self, log: Log) -> None:
         """Take what a log tells beside its samples into the hash."""
