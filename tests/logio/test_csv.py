@@ -140,7 +140,7 @@ def test_a_table_parted_from_its_metadata_is_not_taken_for_more(
 
 
 def test_an_origin_is_one_however_it_is_spelt(tmp_path: Path) -> None:
-    (tmp_path / "a.csv").write_text("elapsed_s,depth_m, Origin\n0,1, Simulated \n")
+    (tmp_path / "a.csv").write_text("time_utc,depth_m, Origin\n2020-01-01T00:00:00Z,1, Simulated \n")
     reading = read([tmp_path / "a.csv"])
     assert (reading.log.origin, reading.files[0].warnings) == ("simulated", ())
 
@@ -148,7 +148,10 @@ def test_an_origin_is_one_however_it_is_spelt(tmp_path: Path) -> None:
 def test_a_table_that_does_not_say_is_warned_of(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("elapsed_s,depth_m\n0,1\n")
     reading = read([tmp_path / "a.csv"])
-    assert reading.files[0].warnings == ("taken as measured: the table does not say where its values come from",)
+    assert reading.files[0].warnings == (
+        "the date, from 2000-01-01 on, is arbitrary: the table has elapsed_s alone",
+        "taken as measured: the table does not say where its values come from",
+    )
 
 
 def mixed() -> Log:
