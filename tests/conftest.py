@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import subprocess
 import sys
 from collections.abc import Callable
@@ -15,8 +14,6 @@ import pytest
 
 from glidercli.model import Parameters, parameters
 from glidercli.vehicle import Vehicle, load_vehicle
-
-os.environ["RERUN_TELEMETRY"] = "off"
 
 GLIDER = Path(sys.executable).with_name("glider")
 ROOT = Path(__file__).parent.parent

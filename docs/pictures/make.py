@@ -9,8 +9,6 @@ Look at each picture before it is kept.
 from __future__ import annotations
 
 import contextlib
-import json
-import os
 import socket
 import subprocess
 import sys
@@ -20,9 +18,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-import rerun_cli
 from PIL import Image
 from rerun.experimental import ViewerClient
+
+from glidercli.live.rerun_viewer import binary, quiet_environment
 
 HERE = Path(__file__).parent
 LOGS = HERE.parent.parent / "logs"
@@ -82,14 +81,10 @@ def viewer(recording: Path, folder: str) -> Iterator[ViewerClient]:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    settings = Path(folder) / "config" / "rerun" / "analytics.json"
-    settings.parent.mkdir(parents=True)
-    quiet = {"analytics_enabled": False, "analytics_id": "", "metadata": {}}
-    settings.write_text(json.dumps({**quiet, "config_file_path": str(settings), "data_dir_path": folder}))
-    own = {"XDG_RUNTIME_DIR": folder, "XDG_CONFIG_HOME": f"{folder}/config", "XDG_DATA_HOME": folder}
-    command = [Path(rerun_cli.__file__).with_name("rerun"), recording, "--headless", "--hide-welcome-screen"]
+    own = {"XDG_RUNTIME_DIR": folder, "XDG_CONFIG_HOME": folder, "XDG_DATA_HOME": folder}
+    command = [binary(), recording, "--headless", "--hide-welcome-screen"]
     command += ["--bind", "127.0.0.1", "--port", str(port), "--window-size", SIZE]
-    process = subprocess.Popen(command, env={**os.environ, **own, "RUST_LOG": "error"})
+    process = subprocess.Popen(command, env=quiet_environment() | own)
     try:
         client = connected(port)
         for _ in range(ZOOM):

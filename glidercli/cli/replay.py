@@ -68,7 +68,7 @@ def replay(
     from glidercli.logio.replaying import check_beside
 
     outputs = output or []
-    choices = Choices(spawn, serve, foxglove, rate, follow, port, wait)
+    choices = Choices(spawn=spawn, serve=serve, foxglove=foxglove, rate=rate, follow=follow, port=port, wait=wait)
     check_choices(choices)
     if follow and (start is not None or end is not None):
         raise UsageError("--follow shows all that comes; leave out --start and --end")

@@ -11,11 +11,8 @@ from glidercli.errors import InputError, UsageError
 
 __all__ = ["Choices", "check_choices"]
 
-WAIT = 60.0
-"""s that a play waits for a viewer of the WebSocket."""
 
-
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, kw_only=True)
 class Choices:
     """What was asked for.
 
@@ -31,7 +28,7 @@ class Choices:
     rate: float | None = None
     follow: bool = False
     port: int | None = None
-    wait: float = WAIT
+    wait: float
 
     @property
     def live(self) -> bool:

@@ -18,10 +18,12 @@ import numpy as np
 from glidercli.errors import InputError
 from glidercli.live.growing import GrowingFiles, check_followable
 from glidercli.log import Channel, Event, Log
-from glidercli.logio.reading import Reading, files_of, read
+from glidercli.logio.finding import found_in
+from glidercli.logio.reading import Reading, read
+
+__all__ = ["Follower", "Step", "following", "newer"]
 
 _BEFORE_ALL = np.iinfo(np.int64).min
-__all__ = ["Follower", "Step", "following", "newer"]
 
 MOVED = 1.0
 """m; a track that was shown and moved by more is drawn anew."""
@@ -56,8 +58,7 @@ class Follower:
         self, paths: Sequence[str | Path], format: str | None, cache: Path | None, columns: Path | None,
         tell: Callable[[str], None], folder: Path,
     ) -> None:  # fmt: skip
-        self._patient = not all(Path(given).is_file() for given in paths)
-        for path in files_of(paths):
+        for path in found_in(paths).files:
             if not path.exists():
                 raise InputError(path, "no such file")
             if any(Path(given) == path for given in paths) and path.is_file() and path.stat().st_size:
@@ -77,7 +78,7 @@ class Follower:
     def look(self) -> Step | None:
         """What is new, or None. Raises InputError where the files can be no log from the start."""
         try:
-            files = list(files_of(self._paths))
+            files = list(found_in(self._paths).files)
         except InputError as error:
             self._once(str(error))
             return None

@@ -17,6 +17,7 @@ from glidercli.errors import InputError
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport
 from glidercli.logio.spreading import read_one
+from glidercli.logio.strangers import NOT_PACKED
 
 __all__ = ["GrowingFiles", "check_followable"]
 
@@ -25,8 +26,8 @@ BEGINS = 65536
 """bytes; a file that is no log up to here will not become one."""
 BLOCK = 1 << 20
 SLOCUM = b"dbd_label"
-WHOLE = {b"\x89MCAP": "an .mcap", b"PAR1": "Parquet", b"\x89HDF": "NetCDF", b"CDF": "NetCDF", b"\x1f\x8b": "gzip"}
-"""How files begin that are written as a whole."""
+WHOLE = {**NOT_PACKED, b"\x1f\x8b": "gzip"}
+"""How files begin that are written as a whole, and what they are."""
 NOT_WHOLE = "is not whole yet"
 
 

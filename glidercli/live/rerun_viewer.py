@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import quote
 
 from glidercli.errors import InputError
 from glidercli.live.ports import HOST, listening, taken
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from glidercli.logio.rerun.contents import Contents
     from glidercli.logio.rerun.stream import RerunStream
 
-__all__ = ["RerunViewer"]
+__all__ = ["RerunViewer", "binary", "quiet_environment"]
 
 WEB_PORT = 9090
 PORT = 9876
@@ -54,18 +55,19 @@ class RerunViewer:
         self._stream: RerunStream | None = None
         with taken(None, PORT) as held:
             feed = held.getsockname()[1]
-            command = [str(_binary()), "--bind", HOST, "--port", str(feed)]
+            command = [str(binary()), "--bind", HOST, "--port", str(feed)]
             if web:
                 with taken(port, WEB_PORT) as page:
-                    self.address = f"http://{HOST}:{page.getsockname()[1]}/?{QUIET}&url=rerun%2Bhttp%3A%2F%2F{HOST}%3A{feed}%2Fproxy"
-                    command += ["--serve-web", "--web-viewer-port", str(page.getsockname()[1])]
+                    number = page.getsockname()[1]
+                    source = quote(f"rerun+http://{HOST}:{feed}/proxy", safe="")
+                    self.address = f"http://{HOST}:{number}/?{QUIET}&url={source}"
+                    command += ["--serve-web", "--web-viewer-port", str(number)]
                     command += ["--server-memory-limit", "75%"]
             else:
                 command += ["--hide-welcome-screen", "--expect-data-soon"]
         self._said = tempfile.TemporaryFile()  # noqa: SIM115, it lives as long as the process
-        environment = {**os.environ, "RUST_LOG": "error", "RERUN_TELEMETRY": "off"}
         self._process = subprocess.Popen(
-            command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self._said, env=environment,
+            command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self._said, env=quiet_environment(),
             start_new_session=True,  # Ctrl-C is for us; we end it
             preexec_fn=_bound_to_us(),
         )  # fmt: skip
@@ -166,7 +168,13 @@ def _bound_to_us() -> Callable[[], object] | None:
     return lambda: ask(PR_SET_PDEATHSIG, int(signal.SIGTERM))
 
 
-def _binary() -> Path:
+def quiet_environment() -> dict[str, str]:
+    """The environment of Rerun's program, in which it sends no telemetry: it sends none where it takes itself to be
+    tested (re_analytics, native/config.rs), and has no other switch but the user's own settings."""
+    return {**os.environ, "RUST_LOG": "error", "CI": "1"}
+
+
+def binary() -> Path:
     """Rerun's own program: the script of its name would leave it behind when it is ended."""
     import rerun_cli
 

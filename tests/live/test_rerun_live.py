@@ -17,7 +17,7 @@ from conftest import ROOT, Run, one_line_error
 from live_clients import Running, Watcher, running, wait_for
 
 from glidercli.channels import CHANNELS
-from glidercli.live.rerun_viewer import _binary
+from glidercli.live.rerun_viewer import binary, quiet_environment
 from glidercli.log import Log
 from glidercli.logio import read
 
@@ -37,7 +37,7 @@ def saved(feed: int, path: Path) -> dict[str, tuple[np.ndarray, np.ndarray]]:
 
     path.unlink(missing_ok=True)
     command = [
-        _binary(),
+        binary(),
         "--port",
         "auto",
         "--bind",
@@ -59,7 +59,7 @@ def saved(feed: int, path: Path) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         finally:
             client.send_signal(signal.SIGINT)
     whole = path.with_name("whole.rrd")  # with the end that an interrupted file lacks
-    subprocess.run([_binary(), "rrd", "merge", path, "-o", whole], check=True, capture_output=True)
+    subprocess.run([binary(), "rrd", "merge", path, "-o", whole], check=True, capture_output=True)
     chunks: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {}
     reader = RrdReader(whole)
     for store in reader.recordings():
@@ -238,10 +238,10 @@ def test_the_viewer_that_a_window_would_show_gets_the_log(tmp_path: Path, monkey
     from glidercli.live import rerun_viewer
 
     program = tmp_path / "rerun"
-    program.write_text(f'#!/bin/sh\nexec "{_binary()}" "$@" --headless --window-size 800x600\n')
+    program.write_text(f'#!/bin/sh\nexec "{binary()}" "$@" --headless --window-size 800x600\n')
     program.chmod(0o755)
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    monkeypatch.setattr(rerun_viewer, "_binary", lambda: program)
+    monkeypatch.setattr(rerun_viewer, "binary", lambda: program)
     log = read([DIVE]).log
     try:
         viewer = rerun_viewer.RerunViewer(web=False, port=None, following=False, paced=False)
@@ -258,3 +258,15 @@ def test_the_viewer_that_a_window_would_show_gets_the_log(tmp_path: Path, monkey
     finally:
         viewer.close(patient=False)
     assert viewer._process.returncode is not None
+
+
+def test_rerun_sends_no_telemetry_for_us(tmp_path: Path) -> None:
+    """By its own words, where the user's settings allow it, as those of somebody who never ran it do."""
+    home = {"HOME": str(tmp_path), "XDG_CONFIG_HOME": str(tmp_path), "XDG_DATA_HOME": str(tmp_path)}
+    command = [binary(), "--serve-web", "--bind", "127.0.0.1", "--port", "0", "--web-viewer-port", "0"]
+    words = quiet_environment() | home | {"RUST_LOG": "re_analytics=trace"}
+    with subprocess.Popen(command, env=words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        assert process.stdout is not None
+        said = next(line for line in process.stdout if "re_analytics" in line)
+        process.kill()
+    assert "Analytics disabled" in said

@@ -65,7 +65,7 @@ def log(samples: int, shift: float = 0.0, more: bool = False) -> Log:
 class Watched:
     def __init__(self) -> None:
         self.said: list[str] = []
-        self.viewers = Viewers(Choices(serve=True, follow=True), self.said.append)
+        self.viewers = Viewers(Choices(serve=True, follow=True, wait=60.0), self.said.append)
         self.over, self.on = Shown(True), Shown(False)
         self.viewers.all += [self.over, self.on]
         self.watch = _Watch(self.viewers)

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import json
-import os
 import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from glidercli.live.rerun_viewer import binary, quiet_environment
 from glidercli.log import Channel, Event, Log
 from glidercli.logio.rerun.writer import write_rerun
 
@@ -75,14 +73,15 @@ def page(path: Path) -> str:
     return str(rows(path, "/about", "TextDocument:text")[2][0][0])
 
 
+def rerun_program(home: Path, *arguments: object) -> subprocess.CompletedProcess[str]:
+    """Rerun's own program: it sends nothing, and has none of the user's settings."""
+    own = {"HOME": str(home), "XDG_CONFIG_HOME": str(home), "XDG_DATA_HOME": str(home)}
+    command = [str(binary()), *map(str, arguments)]
+    return subprocess.run(command, env=quiet_environment() | own, capture_output=True, text=True, timeout=300)
+
+
 def told_by_the_verifier(path: Path, home: Path) -> str:
-    """What ``rerun rrd verify`` prints; a failure is an error. It runs without settings of the user's."""
-    settings = home / "config" / "rerun" / "analytics.json"
-    settings.parent.mkdir(parents=True, exist_ok=True)
-    quiet = {"analytics_enabled": False, "analytics_id": "", "metadata": {}}  # nothing is sent
-    settings.write_text(json.dumps({**quiet, "config_file_path": str(settings), "data_dir_path": str(home)}))
-    own = {"HOME": str(home), "XDG_CONFIG_HOME": str(home / "config"), "XDG_DATA_HOME": str(home)}
-    command = [Path(sys.executable).with_name("rerun"), "rrd", "verify", path]
-    done = subprocess.run(command, env={**os.environ, **own}, capture_output=True, text=True, timeout=60)
+    """What ``rerun rrd verify`` prints; a failure is an error."""
+    done = rerun_program(home, "rrd", "verify", path)
     assert done.returncode == 0, done.stderr
     return done.stdout + done.stderr

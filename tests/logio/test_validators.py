@@ -7,7 +7,6 @@ reference reader in another language, which decodes every message by the schema 
 from __future__ import annotations
 
 import json
-import os
 import shutil
 import subprocess
 import sys
@@ -18,6 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 from mcap.reader import make_reader
+from rrd_files import rerun_program
 from viewer_logs import LOGS
 
 from glidercli.channels import CHANNELS
@@ -53,18 +53,6 @@ def ran(*command: Any, **options: Any) -> subprocess.CompletedProcess[str]:
     return subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=300, **options)
 
 
-def rerun(folder: Path, *arguments: Any) -> subprocess.CompletedProcess[str]:
-    """Rerun's program, in a home that switches its analytics off: nothing is sent, nothing of the user's is read."""
-    import rerun_cli
-
-    settings = folder / "config" / "rerun" / "analytics.json"
-    settings.parent.mkdir(parents=True, exist_ok=True)
-    settings.write_text('{"analytics_enabled": false, "analytics_id": "", "metadata": {}}')
-    home = {"HOME": str(folder), "XDG_CONFIG_HOME": str(folder / "config"), "XDG_DATA_HOME": str(folder)}
-    program = Path(str(rerun_cli.__file__)).with_name("rerun")
-    return ran(program, *arguments, env={**os.environ, **home})
-
-
 def test_the_doctor_finds_nothing(saved: Saved) -> None:
     done = ran(BIN / "pymcap-cli", "doctor", "--strict-message-order", "--format", "jsonl", saved.mcap)
     assert done.returncode == 0, done.stdout + done.stderr
@@ -74,7 +62,7 @@ def test_the_doctor_finds_nothing(saved: Saved) -> None:
 
 
 def test_rerun_finds_no_fault_in_the_mcap(saved: Saved, tmp_path: Path) -> None:
-    done = rerun(tmp_path, "mcap", "check", saved.mcap)
+    done = rerun_program(tmp_path, "mcap", "check", saved.mcap)
     assert done.returncode == 0, done.stdout + done.stderr
     rows = [line.split() for line in done.stdout.splitlines() if "/" in line and not line.startswith("/tmp")]
     assert {row[3]: row[0] for row in rows if row[0] in ("ok", "warn", "error")} == dict.fromkeys(topics(saved), "ok")
@@ -125,7 +113,7 @@ def test_the_mcap_is_the_log_to_the_last_bit(saved: Saved) -> None:
 def test_rerun_verifies_the_rrd(saved: Saved, tmp_path: Path) -> None:
     if saved.rrd is None:
         pytest.skip("a log without a sample is refused as .rrd")
-    done = rerun(tmp_path, "rrd", "verify", saved.rrd)
+    done = rerun_program(tmp_path, "rrd", "verify", saved.rrd)
     assert done.returncode == 0, done.stderr
     assert "without error" in done.stdout + done.stderr
 
