@@ -20,6 +20,7 @@ from google.protobuf.message_factory import GetMessageClass
 from mcap.reader import make_reader
 
 from glidercli.channels import CHANNELS, PHASES
+from glidercli.live.pacing import between
 from glidercli.log import Channel, Event, Log
 from glidercli.logio.mcap.contents import statement
 from glidercli.logio.mcap.scene import Scene
@@ -192,7 +193,7 @@ def test_hull_track_and_map(tmp_path: Path) -> None:
     line = found["/viz/track"][0][1].entities[0]
     assert [point.y for point in line.lines[0].points] == full_log()["east"].values.tolist()
     (feature,) = json.loads(found["/map/track"][0][1].geojson)["features"]
-    longitude, latitude = feature["geometry"]["coordinates"][-1]
+    longitude, latitude = feature["geometry"]["coordinates"][-1][-1]
     metres = 0.5 * (N - 1)
     # On the ground a degree of latitude at 20 deg north is 110.7 km, one of longitude 104.6 km: 0.1 % by these digits.
     assert latitude - 20.0 == pytest.approx(metres / 110_700.0, rel=1e-3)
@@ -409,7 +410,28 @@ def test_the_map_goes_on_at_180_degrees(tmp_path: Path) -> None:
     )
     log = Log({name: c for name, c in log.channels.items() if name not in ("north", "east")}, log.origin, {})
     (feature,) = json.loads(written(log, tmp_path / "a.mcap")["/map/track"][0][1].geojson)["features"]
-    geometry = feature["geometry"]
-    lines = geometry["coordinates"] if geometry["type"] == "MultiLineString" else [geometry["coordinates"]]
+    lines = feature["geometry"]["coordinates"]
     assert (len(lines), sum(map(len, lines))) == (2, N)
     assert all(abs(b[0] - a[0]) < 1.0 for line in lines for a, b in itertools.pairwise(line))
+
+
+def test_what_was_told_before_the_first_place_counts_in_pieces_too() -> None:
+    """The mass has its only position before anything tells a place; its rotation comes after."""
+    times = full_log()["depth"].time_ns
+    log = Log(
+        {
+            "mass_position": Channel("mass_position", times[:1], np.array([0.4]), "simulated"),
+            "depth": Channel("depth", times[5:], np.zeros(N - 5), "simulated"),
+            "mass_rotation": Channel("mass_rotation", times[6:], np.zeros(N - 6), "simulated"),
+        },
+        "simulated",
+        {},
+    )
+    whole, cut = Scene(log), Scene(log)
+    at = int(times[3])
+    pieces = [between(log, int(times[0]), at), between(log, at, int(times[-1]) + 1)]
+    found = [
+        np.concatenate([t.time_ns for piece in part for t in scene.topics(piece) if t.name == "/viz/movable_mass"])
+        for scene, part in ((whole, [log]), (cut, pieces))
+    ]
+    assert found[0].tolist() == found[1].tolist() == times[6:].tolist()

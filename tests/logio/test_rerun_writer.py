@@ -5,13 +5,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rrd_files import START, channel, log_of, page, panels, rows, samples, sights, told_by_the_verifier, written
+from rrd_files import START, channel, log_of, page, panels, rows, samples, sights, stored, told_by_the_verifier, written
 
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.errors import OutputError
 from glidercli.log import Event, Log
 from glidercli.logio.rerun.settling import _xxh32
-from glidercli.logio.rerun.writer import write_rerun
+from glidercli.logio.rerun.writer import RerunLog, write_rerun
 
 
 @pytest.fixture
@@ -245,3 +245,18 @@ def test_a_line_breaks_at_a_gap(tmp_path: Path) -> None:
     _, elapsed, values = rows(path, "/attitude/pitch", "Scalars:scalars")
     assert elapsed.tolist() == [0, 10**10, 2 * 10**10, 2 * 10**10 + 1, 2000 * 10**9, 2010 * 10**9]
     assert np.isnan(np.ravel(values)).tolist() == [False] * 3 + [True] + [False] * 2
+
+
+def test_a_line_breaks_at_a_gap_between_two_pieces(tmp_path: Path) -> None:
+    """As a recording in pieces makes them: what is usual is told by the first."""
+    file = RerunLog(tmp_path / "a.rrd")
+    for seconds in ([0.0, 10.0, 20.0], [30.0], [2000.0], [2010.0]):
+        log = log_of([channel("pitch", seconds, 0.1)], "measured", {})
+        file.add(log)
+    file.close(log)
+    broken = []
+    for entity, batch in stored(tmp_path / "a.rrd"):
+        if entity == "/attitude/pitch" and "Scalars:scalars" in batch.schema.names:
+            elapsed = batch.column("elapsed").to_numpy(zero_copy_only=False).astype(np.int64)
+            broken += elapsed[np.isnan(batch.column("Scalars:scalars").flatten().to_numpy())].tolist()
+    assert broken == [30 * 10**9 + 1]

@@ -10,9 +10,10 @@ from glidercli.log import Log
 from glidercli.logio.mcap.messages import Array, Times, all_times
 from glidercli.logio.mcap.shapes import Samples
 
-__all__ = ["Latest", "at_these", "moving"]
+__all__ = ["FOREVER", "Latest", "at_these", "moving"]
 
 FOREVER = np.iinfo(np.int64).max
+"""Start of what has not begun, UTC ns."""
 
 
 class Latest:

@@ -17,7 +17,7 @@ from glidercli.logio.drawable import bottom, hull_size, mass_notes, origin, slid
 from glidercli.logio.mcap import hull, shapes, still
 from glidercli.logio.mcap.averages import averages
 from glidercli.logio.mcap.file import Topic
-from glidercli.logio.mcap.latest import Latest, at_these, moving
+from glidercli.logio.mcap.latest import FOREVER, Latest, at_these, moving
 from glidercli.logio.mcap.messages import Array
 from glidercli.logio.mcap.shapes import Samples
 from glidercli.logio.thinned import Thinned
@@ -63,17 +63,16 @@ class Scene:
             topics.append(shapes.fixes(fixes, -at_these(piece, "depth", fixes[0], np.nan)))
         place, attitude = _place(piece), _attitude(piece)
         times = moving([(self._place, place), (self._attitude, attitude)])
-        if self._start_ns is None and not times.size:
-            return topics
         if times.size:
             motion = times, [*self._place.at(times, (0.0, 0.0, 0.0)), *self._attitude.at(times, LEVEL)]
             topics = [shapes.transforms(motion), shapes.places(motion), *_poses(place, attitude), *topics]
-        if self._start_ns is None:
-            self._start_ns = int(times[0])
-            topics = [
-                shapes.static(self._log_ns), *topics, hull.vehicle(self._size, self._kind, self._start_ns)
-            ]  # fmt: skip
-        return [*topics, *self._inside(piece, self._start_ns), *self._current(piece, self._start_ns)]
+            if self._start_ns is None:
+                self._start_ns = int(times[0])
+                topics = [
+                    shapes.static(self._log_ns), *topics, hull.vehicle(self._size, self._kind, self._start_ns)
+                ]  # fmt: skip
+        start_ns = FOREVER if self._start_ns is None else self._start_ns
+        return [*topics, *self._inside(piece, start_ns), *self._current(piece, start_ns)]
 
     def lines(self, log: Log, start_ns: int) -> list[Topic]:
         """The topics that show the whole way, when the last piece is there. log : that piece, with its metadata."""

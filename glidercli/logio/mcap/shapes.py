@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import json
 import math
+from typing import Any
 
 import numpy as np
 
 from glidercli.log import Log
-from glidercli.logio.drawable import number
+from glidercli.logio.drawable import origin
 from glidercli.logio.mcap.messages import MARKED_TIME, Array, Messages, Table, Times, message, slot, timestamp
 from glidercli.logio.mcap.primitives import HULL, MAP, NED, PLACE, colour, marked_pose, point, scene, single
 from glidercli.places import geodetic_of_track
@@ -83,12 +84,13 @@ def map_track(log: Log, way: Array, fixed: Array, time_ns: int) -> list[Messages
     """
     from foxglove_schemas_protobuf.GeoJSON_pb2 import GeoJSON
 
-    latitude_0, longitude_0 = number(log, "origin_latitude_deg"), number(log, "origin_longitude_deg")
-    reckoned = len(way) > 0 and latitude_0 is not None and longitude_0 is not None
-    if latitude_0 is not None and longitude_0 is not None and reckoned:
-        latitude, longitude = geodetic_of_track(way[:, 0], way[:, 1], latitude_0, longitude_0)
+    about = origin(log)
+    if about is not None and len(way):
+        latitude, longitude = geodetic_of_track(way[:, 0], way[:, 1], *about)
+        kind = log["north"].origin
     elif len(fixed):
         latitude, longitude = fixed.T
+        kind = log["latitude"].origin
     else:
         return []
     line = np.stack([longitude, latitude], axis=-1)
@@ -96,13 +98,13 @@ def map_track(log: Log, way: Array, fixed: Array, time_ns: int) -> list[Messages
     if not len(points):
         return []
     legs = np.split(points, np.flatnonzero(np.abs(np.diff(points[:, 0])) > 180.0) + 1)  # it goes on at 180 degrees
-    lines = [leg.tolist() for leg in legs if len(leg) > 1]
-    kinds = {0: ("Point", points[0].tolist()), 1: ("LineString", lines[0] if lines else [])}
-    kind, places = kinds.get(len(lines), ("MultiLineString", lines))
+    if lines := [leg.tolist() for leg in legs if len(leg) > 1]:
+        geometry: dict[str, Any] = {"type": "MultiLineString", "coordinates": lines}
+    else:
+        geometry = {"type": "Point", "coordinates": points[0].tolist()}
     style = {"color": "#3399ff", "weight": 3}
-    shown = log["north"].origin if reckoned else log["latitude"].origin
-    told = {"name": f"track ({log.kind if shown == log.origin else shown.upper()})", "style": style}
-    feature = {"type": "Feature", "properties": told, "geometry": {"type": kind, "coordinates": places}}
+    told = {"name": f"track ({log.kind if kind == log.origin else kind.upper()})", "style": style}
+    feature = {"type": "Feature", "properties": told, "geometry": geometry}
     text = json.dumps({"type": "FeatureCollection", "features": [feature]}, allow_nan=False)
     return [single("/map/track", time_ns, GeoJSON(geojson=text))]
 

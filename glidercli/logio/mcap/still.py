@@ -25,6 +25,7 @@ from glidercli.logio.mcap.primitives import (
     single,
     text,
 )  # fmt: skip
+from glidercli.logio.round_steps import nice
 
 __all__ = ["bottom", "current_average", "current_profile", "fix_marks", "surface", "track"]
 
@@ -99,9 +100,7 @@ def _sheet(
         return []
     middle = bounds.mean(axis=0)[:2]
     side = np.maximum(np.maximum(1.1 * extent[:2], 0.4 * extent.max()) / 2.0, 1.0)
-    wanted = float(side.max()) / 3.0
-    power = 10.0 ** np.floor(np.log10(wanted))
-    spacing = float(power * max(step for step in (1, 2, 5) if step * power <= wanted * (1.0 + 1e-9)))
+    spacing = nice(float(side.max()) / 3.0)
     (south, west), (north, east) = (f((middle + s * side) / spacing) for f, s in ((np.floor, -1.0), (np.ceil, 1.0)))
     rows = [np.linspace(a, b, min(round(b - a), MOST_LINES) + 1) * spacing for a, b in ((south, north), (west, east))]
     (south, north), (west, east) = rows[0][[0, -1]], rows[1][[0, -1]]

@@ -21,7 +21,7 @@ from glidercli.logio.rerun.contents import PIECE, header, texts
 from glidercli.logio.rerun.differences import Difference, differences, reference_first
 from glidercli.logio.rerun.hull import hull_notes
 from glidercli.logio.rerun.panels import ASPECT
-from glidercli.logio.rerun.plots import Plots
+from glidercli.logio.rerun.plots import Plots, lines
 from glidercli.logio.rerun.scene import Scene
 from glidercli.logio.rerun.sea import Sea
 from glidercli.logio.rerun.settling import columns, row
@@ -72,7 +72,7 @@ class Beside:
         """What can be told at the end, and the panels. log : the first, with its final metadata."""
         import rerun as rr
 
-        notes = ["Depth is plotted negative down; plots join samples by straight lines."]
+        notes = ["Depth is plotted negative down; plots join samples by straight lines, not across gaps."]
         notes.append("Elapsed counts from the first sample of all.")
         chunks = [header(log, self._zero_ns)]
         for side, scene in zip(self._sides, self._scenes, strict=True):
@@ -81,13 +81,13 @@ class Beside:
             notes += [f"{side.short}: {note}" for note in (hull_notes(side.log) if side.has_hull else [])]
         sea = self._surroundings(chunks, notes)
         told = [scene.fixes(side.log) for side, scene in zip(self._sides, self._scenes, strict=True)]
-        lines = [
+        mapped_lines = [
             Line(scene.map, scene.on_map(), mapped, side.colour, side.colour)
             for side, scene, (_, mapped) in zip(self._sides, self._scenes, told, strict=True)
         ]
         zoom = None
-        if any(len(line.track) or len(line.fixes) for line in lines):
-            more, zoom = chart(lines)
+        if any(len(line.track) or len(line.fixes) for line in mapped_lines):
+            more, zoom = chart(mapped_lines)
             chunks += more
         pairs = [self._pair(number, notes, chunks) for number in range(1, len(self._logs))]
         sides = [(side.label, look.NAMES[side.colour], side.log) for side in self._sides]
@@ -118,7 +118,6 @@ class Beside:
 
     def _pair(self, number: int, notes: list[str], chunks: list[Chunk]) -> Pair:
         """How far a log is from the first, added to what is drawn and told."""
-
         sides = self._sides[0], self._sides[number]
         reference, other = sides if reference_first(sides[0].log, sides[1].log) else sides[::-1]
         found = differences(reference.log, other.log)
@@ -140,12 +139,8 @@ class Beside:
 
         entity = f"{pair.place}/{one.name}"
         style: dict[str, Any] = {"names": pair.title, "colors": pair.colour}
-        lines = pair.drawn_as_lines(one.name)
-        drawn = (
-            rr.SeriesLines(widths=1.5, **style)
-            if lines
-            else rr.SeriesPoints(marker_sizes=1.2, markers="circle", **style)
-        )
+        points = dict[str, Any](marker_sizes=1.2, markers="circle", **style)
+        drawn = lines(1.5, **style) if pair.drawn_as_lines(one.name) else rr.SeriesPoints(**points)
         values = rr.Scalars.columns(scalars=one.values)
         return [row(entity, drawn), columns(entity, self._zero_ns, one.time_ns, values)]
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from glidercli.channels import CHANNELS
 from glidercli.log import Log
-from glidercli.logio.drawable import hull_size
+from glidercli.logio.drawable import hull_size, moves_mass
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun import panels
 from glidercli.logio.rerun.sea import Sea, in_words
@@ -85,8 +85,7 @@ def _hull_title(log: Log) -> str:
     own = hull_size(log)[2]
     name = "".join(sign for sign in log.metadata.get("vehicle", "its own") if sign.isprintable())
     whose = f"{name[:LONGEST]} hull" if own else "generic hull, not to scale"
-    moves = any(name in log for name in ("mass_position", "mass_rotation"))
-    return f"{log.kind} attitude{'; red: mass' if moves else ''}; {whose}"
+    return f"{log.kind} attitude{'; red: mass' if moves_mass(log) else ''}; {whose}"
 
 
 def _overview(log: Log, shown: Shown, sea: Sea) -> Any:

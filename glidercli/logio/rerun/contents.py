@@ -30,10 +30,9 @@ from glidercli.logio.rerun.settling import columns, row
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
-Array = NDArray[np.float64]
-
 __all__ = ["PIECE", "Contents", "header", "texts"]
 
+Array = NDArray[np.float64]
 PIECE = 65536
 """Samples of a channel that go into one chunk."""
 
@@ -71,7 +70,7 @@ class Contents:
         import rerun as rr
 
         whole = dataclasses.replace(log, channels=self._first.channels)
-        notes = ["Depth is plotted negative down; plots join samples by straight lines."]
+        notes = ["Depth is plotted negative down; plots join samples by straight lines, not across gaps."]
         told = texts(log.events, self._zero_ns) if events else []
         chunks = [header(log, self._zero_ns), *told, *self._scene.rail()]
         places, mapped = self._scene.fixes(log)

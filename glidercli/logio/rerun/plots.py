@@ -18,10 +18,17 @@ from glidercli.residuals import usual_gap
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
-__all__ = ["Plots"]
+__all__ = ["Plots", "lines"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
+
+
+def lines(width: float, **style: Any) -> Any:
+    """The style of a line: of the samples that fall on a pixel the extremes are drawn, not the mean."""
+    import rerun as rr
+
+    return rr.SeriesLines(widths=width, aggregation_policy=rr.components.AggregationPolicy.MinMax, **style)
 
 
 class Plots:
@@ -38,6 +45,8 @@ class Plots:
         self._zero_ns, self._place, self._colour, self._label = zero_ns, place, colour, label
         self._names = [name for name in CHANNELS if name in log and len(log[name])]
         self._by_phase = colour is None and {"depth", "phase"} <= {*self._names}
+        self._gaps_ns = {name: int(usual_gap(log[name]) * 1e9) for name in self._names}
+        self._last_ns: dict[str, int] = {}
         self._phase = -1.0
         self._seen: set[int] = set()
 
@@ -54,17 +63,15 @@ class Plots:
             entity = self._entity(name)
             colour = self._colour or COLOURS.get(name, look.GREY)
             style: dict[str, Any] = {"names": self._label or series_name(name), "colors": colour}
-            # of the samples that fall on a pixel the extremes are drawn, not the mean
-            line = dict[str, Any](aggregation_policy=rr.components.AggregationPolicy.MinMax)
             if name == "phase":
                 yield row(entity, rr.StateConfiguration(values=PHASES, colors=[*look.PHASE_COLOURS.values()]))
             elif name == "heading":
                 yield row(entity, rr.SeriesPoints(marker_sizes=1.2, markers="circle", **style))
             elif name == "depth" and self._by_phase:
                 del style["colors"]  # what stands still would hide what changes
-                yield row(entity, rr.SeriesLines(widths=2.0, **line, **style))
+                yield row(entity, lines(2.0, **style))
             else:
-                yield row(entity, rr.SeriesLines(widths=1.5, **line, **style))
+                yield row(entity, lines(1.5, **style))
 
     def values(self, piece: Log) -> Iterator[Chunk]:
         """The samples of a piece, NaN at each gap, which breaks the line; of phases those that begin one."""
@@ -78,8 +85,17 @@ class Plots:
                 yield from self._states(piece)
                 continue
             values = channel.values * (-1.0 if name == "depth" else CHANNELS[name].factor)
-            times, drawn = _broken(channel, values)
+            times, drawn = self._broken(channel, values)
             yield columns(self._entity(name), self._zero_ns, times, rr.Scalars.columns(scalars=drawn))
+
+    def _broken(self, channel: Channel, values: Array) -> tuple[Times, Array]:
+        """Times and values, with NaN 1 ns after each sample that a gap follows, be it of an earlier piece."""
+        held = [self._last_ns[channel.name]] if channel.name in self._last_ns else []
+        self._last_ns[channel.name] = int(channel.time_ns[-1])
+        times = np.concatenate([np.array(held, np.int64), channel.time_ns])
+        before = np.flatnonzero(np.diff(times) > self._gaps_ns[channel.name])
+        rows = before + 1 - len(held)
+        return np.insert(channel.time_ns, rows, times[before] + 1), np.insert(values, rows, np.nan)
 
     def _states(self, piece: Log) -> Iterator[Chunk]:
         """Phases where they begin, and the colour of depth from there on."""
@@ -103,10 +119,3 @@ class Plots:
 
     def _entity(self, name: str) -> str:
         return f"{self._place}/{CHANNELS[name].group}/{name}"
-
-
-def _broken(channel: Channel, values: Array) -> tuple[Times, Array]:
-    """Times and values with NaN a nanosecond after each sample that a gap follows."""
-    before = np.flatnonzero(np.diff(channel.time_ns) > usual_gap(channel) * 1e9)
-    times = np.insert(channel.time_ns, before + 1, channel.time_ns[before] + 1)
-    return times, np.insert(values, before + 1, np.nan)

@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun.settling import row
+from glidercli.logio.round_steps import nice
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
-__all__ = ["Camera", "Sea", "in_words", "nice"]
+__all__ = ["Camera", "Sea", "in_words"]
 
 Array = NDArray[np.float64]
 Camera = tuple[Array, Array]
@@ -23,12 +24,6 @@ FLAT = 0.45
 """Depth is drawn at least so large beside the longer side of the track; otherwise it is exaggerated."""
 VIEW, BESIDE_BAR = np.radians(55.0), 0.85
 """Height of Rerun's field of view, rad; how much of a panel's width a colour bar beside it leaves."""
-
-
-def nice(value: float) -> float:
-    """The largest of 1, 2, 5 times a power of ten that is no greater than a positive value."""
-    power = 10.0 ** np.floor(np.log10(value))
-    return float(power * max(step for step in (1, 2, 5) if step * power <= value * 1.0001))
 
 
 def in_words(length: float) -> str:

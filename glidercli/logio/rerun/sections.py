@@ -15,8 +15,8 @@ from glidercli.channels import CHANNELS
 from glidercli.log import Log
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun.panels import unit_of
-from glidercli.logio.rerun.sea import nice
 from glidercli.logio.rerun.settling import columns, row
+from glidercli.logio.round_steps import nice
 from glidercli.logio.thinned import Thinned
 from glidercli.residuals import usual_gap
 
@@ -69,6 +69,7 @@ class Sections:
         if told[1][0] is not None:
             told = told[:3]
         self._kept = {} if self._depth is None else {name: (Thinned(MOST), scale) for name, scale in told if name}
+        self._gap = 0.0 if self._depth is None else usual_gap(log[self._depth])
         self._held: dict[str, tuple[Times, Array]] = {}
 
     def add(self, piece: Log, times: Times, places: Array) -> None:
@@ -86,7 +87,7 @@ class Sections:
         for name, (kept, _) in self._kept.items():
             told = piece[name]
             elapsed = (told.time_ns - self._zero_ns).astype(np.float64)
-            where = [_between(told.time_ns, *lines[line], usual_gap(depth)) for line in ("depth", "place")]
+            where = [_between(told.time_ns, *lines[line], self._gap) for line in ("depth", "place")]
             rows = np.column_stack([elapsed, told.values * CHANNELS[name].factor, *where])
             kept.add(rows[np.isfinite(rows[:, 2])])
 

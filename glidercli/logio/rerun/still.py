@@ -6,16 +6,13 @@ Each gives its chunks, and notes for a reader of the pictures.
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun.settling import row
-
-if TYPE_CHECKING:
-    pass
 
 __all__ = ["Drawn", "arrows", "fixes", "track"]
 
@@ -72,19 +69,17 @@ def _track_colours(rows: Array) -> tuple[NDArray[np.int64], list[look.Colour], s
     return np.clip(rows[:, 2] / deepest * 31, 0, 31).astype(np.int64), colours, meaning
 
 
-def fixes(places: Array, count: int, world: str, colour: look.Colour = look.VIOLET) -> Drawn:
+def fixes(places: Array, count: int, world: str) -> Drawn:
     """Recorded positions at the surface. places : (n, 3), NED, m. count : how many there are in all."""
     import rerun as rr
 
     if not len(places):
         return [], []
-    points = rr.Points3D(places, radii=rr.Radius.ui_points(3.5), colors=colour)
-    return [row(f"{world}/fixes", points)], [
-        f"{look.NAMES[colour].capitalize()} points at the surface: {count} recorded positions."
-    ]
+    points = rr.Points3D(places, radii=rr.Radius.ui_points(3.5), colors=look.VIOLET)
+    return [row(f"{world}/fixes", points)], [f"Violet points at the surface: {count} recorded positions."]
 
 
-def arrows(rows: Array, extent: float, world: str, colour: look.Colour = look.TEAL) -> Drawn:
+def arrows(rows: Array, extent: float, world: str) -> Drawn:
     """Arrows of current along the track, level. rows : (n, 5), place and current, north and east, m, m/s."""
     import rerun as rr
 
@@ -96,6 +91,6 @@ def arrows(rows: Array, extent: float, world: str, colour: look.Colour = look.TE
     if not fastest > 0.0:
         return [], []
     vectors *= 0.11 * extent / fastest
-    style = dict[str, Any](colors=colour, radii=rr.Radius.ui_points(1.1))
-    note = f"{look.NAMES[colour].capitalize()} arrows: current; the longest is {fastest:.2f} m/s."
+    style = dict[str, Any](colors=look.TEAL, radii=rr.Radius.ui_points(1.1))
+    note = f"Teal arrows: current; the longest is {fastest:.2f} m/s."
     return [row(f"{world}/current", rr.Arrows3D(vectors=vectors, origins=rows[:, :3], **style))], [note]
