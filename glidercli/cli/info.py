@@ -33,11 +33,11 @@ def info(
     from glidercli.cli.logs_in import cores
     from glidercli.cli.printing import columns_of, json_text, plain
     from glidercli.cli.progress import progress
-    from glidercli.logio import overview, passed_over, read
+    from glidercli.logio import overview, read
 
     with progress("reading", "files", quiet) as bar:
         reading = read(log, format, bar.tell, cache=cache, columns=columns, workers=cores())
-    document = overview(reading).document() | {"passed_over": list(passed_over(log))}
+    document = overview(reading).document()
     if json:
         print(json_text(document))
         return

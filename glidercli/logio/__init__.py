@@ -2,13 +2,12 @@
 
 from glidercli.logio.formats import FORMATS
 from glidercli.logio.overview import Overview, overview
-from glidercli.logio.passing_over import passed_over
 from glidercli.logio.reading import Reading, read
 from glidercli.logio.replaying import Replay, replay
 from glidercli.logio.report import FileReport
 from glidercli.logio.writing import SUFFIXES, Saving, saving, write
 
 __all__ = [
-    "FORMATS", "SUFFIXES", "FileReport", "Overview", "Reading", "Replay", "Saving", "overview", "passed_over", "read",
-    "replay", "saving", "write",
+    "FORMATS", "SUFFIXES", "FileReport", "Overview", "Reading", "Replay", "Saving", "overview", "read", "replay",
+    "saving", "write",
 ]  # fmt: skip

@@ -94,6 +94,7 @@ class Overview:
 
     missing : what one would look for and not find, a line each. unread : columns with data that are not read.
     silence : begin and end of the longest time without a sample of any channel, UTC ns, if it is more than a day.
+    passed_over : files that were not looked at, a line each.
     """
 
     log: Log
@@ -103,6 +104,7 @@ class Overview:
     missing: tuple[str, ...]
     unread: tuple[str, ...]
     silence: tuple[int, int] | None
+    passed_over: tuple[str, ...] = ()
 
     def document(self) -> dict[str, Any]:
         """As JSON."""
@@ -123,6 +125,7 @@ class Overview:
             "events": [{"name": e.name, "time": iso(e.time_ns), "depth_m": e.depth} for e in self.log.events],
             "missing": list(self.missing),
             "not_read": list(self.unread),
+            "passed_over": list(self.passed_over),
             "metadata": {key: text for key, text in self.log.metadata.items() if key not in provenance},
         }
 
@@ -131,7 +134,16 @@ def overview(reading: Reading) -> Overview:
     """What a reading holds."""
     log = reading.log
     channels = tuple(_sampling(channel) for channel in log.channels.values() if len(channel))
-    return Overview(log, reading.files, channels, _dives(log), tuple(_missing(reading)), reading.unread, _silence(log))
+    return Overview(
+        log,
+        reading.files,
+        channels,
+        _dives(log),
+        tuple(_missing(reading)),
+        reading.unread,
+        _silence(log),
+        reading.passed_over,
+    )
 
 
 def _sampling(channel: Channel) -> Sampling:

@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 import dataclasses
-import glob
-import os
-import re
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from glidercli.errors import InputError
-from glidercli.files import identity, readable_file
+from glidercli.files import readable_file
 from glidercli.log import Log
 from glidercli.logio.alike import vehicle_of
 from glidercli.logio.companions import is_companion
 from glidercli.logio.derived import with_derived
+from glidercli.logio.finding import found_in, natural
 from glidercli.logio.formats import FORMATS, check_format
 from glidercli.logio.joining import joined
-from glidercli.logio.passing_over import check_given
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport, all_dropped
 from glidercli.logio.spreading import read_all
 from glidercli.logio.whereabouts import joined_whereabouts
 
-__all__ = ["Reading", "files_of", "read"]
+__all__ = ["Reading", "read"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -33,6 +30,7 @@ class Reading:
     dives : names of the dives that the files tell. partners : recordings that usually stand beside one that was read
     and are missing, each with that one. unread : names of columns with data that no channel is taken from.
     nameless : names of files that tell no vehicle, where others tell one.
+    passed_over : files that were not looked at, a line each.
     """
 
     log: Log
@@ -41,6 +39,7 @@ class Reading:
     partners: tuple[tuple[str, str], ...] = ()
     unread: tuple[str, ...] = ()
     nameless: tuple[str, ...] = ()
+    passed_over: tuple[str, ...] = ()
 
     @property
     def inputs(self) -> list[Path]:
@@ -75,13 +74,12 @@ def read(
         No format of this name.
     """
     check_format(format)
-    check_given(paths)
     if cache is not None and not Path(cache).is_dir():
         raise InputError("--cache", f"{cache} is no folder; the folder of the .cac files is needed")
     if columns is not None:
         readable_file(Path(columns))
     aids = Aids(None if cache is None else Path(cache), None if columns is None else Path(columns))
-    files = files_of(paths)
+    files, passed_over = found_in(paths)
     parts: list[Part] = []
     reports: dict[Path, FileReport] = {}
     unread: dict[str, None] = {}
@@ -98,7 +96,7 @@ def read(
     if not parts:
         raise _nothing(paths, list(reports.values()))
     # the log is the same in whatever order the files come; of two that tell the same the one of a known vehicle counts
-    parts.sort(key=lambda part: (not vehicle_of(part), _natural(part.report.path)))
+    parts.sort(key=lambda part: (not vehicle_of(part), natural(part.report.path)))
     dives = tuple(dict.fromkeys(part.dive for part in parts if part.dive))
     held = {"", *(name for part in parts for name in part.holds)}
     partners = tuple((part.partner, part.report.path.name) for part in parts if part.partner not in held)
@@ -111,7 +109,7 @@ def read(
         log = with_derived(log, near)
     if "platform" not in log.metadata:
         nameless = ()
-    return Reading(log, tuple(reports.values()), dives, partners, tuple(unread), nameless)
+    return Reading(log, tuple(reports.values()), dives, partners, tuple(unread), nameless, passed_over)
 
 
 def _without_outputs(parts: list[Part], files: dict[Path, bool], reports: dict[Path, FileReport]) -> list[Part]:
@@ -124,39 +122,6 @@ def _without_outputs(parts: list[Part], files: dict[Path, bool], reports: dict[P
         else:
             left.append(part)
     return left
-
-
-def files_of(paths: Sequence[str | Path]) -> dict[Path, bool]:
-    """Every file that the paths name, each once, those of folders and globs sorted; and whether a folder holds it."""
-    found: list[tuple[Path, bool]] = []
-    for given in paths:
-        path = Path(given)
-        if path.is_dir():
-            if not os.access(path, os.R_OK | os.X_OK):
-                raise InputError(path, "cannot be listed: permission denied")
-            inside = [p for p in path.iterdir() if not p.is_dir() and not p.name.startswith(".")]
-            found += [(p, True) for p in sorted(inside, key=_natural)]
-        elif path.exists() or not glob.has_magic(str(given)):
-            found.append((path, False))
-        else:
-            matches = [path for match in glob.glob(str(given)) if (path := Path(match)).is_file()]
-            if not matches:
-                raise InputError(given, "no file matches")
-            found += [(match, False) for match in sorted(matches, key=_natural)]
-    names: dict[object, Path] = {}
-    for path, _ in sorted(found, key=lambda one: one[0].is_symlink()):  # a link is read where its file is not named
-        names.setdefault(identity(path), path)
-    chosen, once = set(names.values()), dict[Path, bool]()
-    for path, of_folder in found:
-        if path in chosen:
-            once.setdefault(path, of_folder)
-    return once
-
-
-def _natural(path: Path) -> tuple[list[str | int], str]:
-    """Sorts numbers within names by their size: dive 101 before dive 1000."""
-    parts = re.split(r"([0-9]+)", str(path))
-    return [int(part) if i % 2 else part for i, part in enumerate(parts)], str(path)
 
 
 def _nothing(paths: Sequence[str | Path], reports: list[FileReport]) -> InputError:

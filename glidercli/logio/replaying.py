@@ -11,7 +11,6 @@ from glidercli.channels import CHANNELS
 from glidercli.errors import InputError, UsageError
 from glidercli.files import check_not_inputs, check_outputs
 from glidercli.log import Channel, Log
-from glidercli.logio.passing_over import passed_over
 from glidercli.logio.reading import Reading, read
 from glidercli.logio.records import NO_TIME, to_ns
 from glidercli.logio.report import FileReport
@@ -140,12 +139,13 @@ def replay(
         one.with_metadata(provenance=provenance_json(inputs=inputs, origin=one.origin))
         for one, inputs in zip((log, *together), sources, strict=True)
     )
+    passed_over = tuple(dict.fromkeys(line for one in (reading, *others) for line in one.passed_over))
     if stage is not None and targets:
         stage("writing")
     more = f" and {len(paths) - 1} more" if len(paths) > 1 else ""
     names = [_name(paths[0]) + more, *map(_name, beside)] if beside else []
     write(log, *targets, force=force, attach=sources[0] if attach else (), beside=together, names=names)
-    return Replay(log, tuple(files), tuple(targets), part, passed_over([*paths, *beside]))
+    return Replay(log, tuple(files), tuple(targets), part, passed_over)
 
 
 def check_beside(beside: Sequence[str | Path], outputs: Sequence[Path]) -> None:

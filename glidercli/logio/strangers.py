@@ -11,11 +11,11 @@ from glidercli.gzipped import beginning, is_gzip
 from glidercli.logio.tables import ENDINGS
 from glidercli.netcdf_opening import is_netcdf, opened
 
-__all__ = ["check_text", "stranger"]
+__all__ = ["NOT_PACKED", "check_text", "stranger"]
 
 _HEAD = 65536
-_NOT_PACKED = {b"\x89MCAP": "MCAP", b"PAR1": "Parquet", b"\x89HDF": "NetCDF", b"CDF": "NetCDF"}
-"""How files begin that are read unpacked alone."""
+NOT_PACKED = {b"\x89MCAP": "MCAP", b"PAR1": "Parquet", b"\x89HDF": "NetCDF", b"CDF": "NetCDF"}
+"""How files begin that are written as a whole, and read unpacked alone; and what they are."""
 _GUNZIP = "gunzip it first"
 _UTF16 = "is text in UTF-16, which is read in UTF-8 alone: iconv -f UTF-16 -t UTF-8 OLD > NEW makes it so"
 _CR = r"has lines that end in CR alone, as on an old Macintosh: tr '\r' '\n' < OLD > NEW makes lines that can be read"
@@ -90,7 +90,7 @@ def _water(path: Path, head: bytes) -> str:
 
 def _packed(unpacked: bytes) -> str:
     """What is wrong with gzip data of no format. unpacked : their beginning."""
-    kind = next((kind for start, kind in _NOT_PACKED.items() if unpacked.startswith(start)), "")
+    kind = next((kind for start, kind in NOT_PACKED.items() if unpacked.startswith(start)), "")
     if not kind and any(column in unpacked.split(b"\n", 1)[0].split(b",") for column in (b"time_utc", b"elapsed_s")):
         kind = "a table"
     if kind:

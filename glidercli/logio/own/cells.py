@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.channels import PHASES
+from glidercli.logio import number_cells
 from glidercli.logio.netcdf.times import FIRST, LAST, ticks
 from glidercli.logio.records import NO_TIME, to_ns
 
@@ -34,14 +35,8 @@ def has_decimal_comma(text: str) -> bool:
 
 def numbers(cells: Any, decimal: str = ".") -> Array:
     """A pandas Series of texts as numbers: NaN where a cell is empty or says NaN, infinite where it is no number."""
-    import pandas as pd
-
-    stripped = cells.str.strip()
-    empty = (stripped.isna() | stripped.str.lower().isin(["", "nan"])).to_numpy()
-    stripped = stripped.str.replace(",", ".", regex=False) if decimal == "," else stripped
-    values: Array = pd.to_numeric(stripped.where(~empty, None), errors="coerce").to_numpy(dtype=float, copy=True)
-    values[~empty & ~np.isfinite(values)] = np.inf
-    return values
+    texts = cells.fillna("").str.strip()
+    return number_cells.numbers((texts.str.replace(",", ".", regex=False) if decimal == "," else texts).tolist())
 
 
 def phases(cells: Any) -> Array:
