@@ -131,7 +131,9 @@ def test_a_missing_dive_between_two_fixes_is_no_drift() -> None:
         moved = channel.values + (0.1 if name == "latitude" else 0.0)
         times = np.concatenate([channel.time_ns, channel.time_ns + later])
         channels.append(Channel(name, times, np.concatenate([channel.values, moved])))
-    for closure in json.loads(with_track(Log({c.name: c for c in channels}, "measured")).metadata["closures"]):
+    closures = json.loads(with_track(Log({c.name: c for c in channels}, "measured")).metadata["closures"])
+    assert len(closures) == 2
+    for closure in closures:
         for when in ("before", "after"):
             drift = closure[f"drift_{when}_m_s"]
             # 0.1 degree further north the parallel is 0.2 % shorter
