@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -75,14 +74,21 @@ def page(path: Path) -> str:
     return str(rows(path, "/about", "TextDocument:text")[2][0][0])
 
 
-def told_by_the_verifier(path: Path, home: Path) -> str:
-    """What ``rerun rrd verify`` prints; a failure is an error. It runs without settings of the user's."""
+def rerun(home: Path, *arguments: Any) -> subprocess.CompletedProcess[str]:
+    """Rerun's own program, with settings of its own in that folder: nothing is sent, nothing of the user's is read."""
+    import rerun_cli
+
     settings = home / "config" / "rerun" / "analytics.json"
     settings.parent.mkdir(parents=True, exist_ok=True)
-    quiet = {"analytics_enabled": False, "analytics_id": "", "metadata": {}}  # nothing is sent
+    quiet = {"analytics_enabled": False, "analytics_id": "", "metadata": {}}
     settings.write_text(json.dumps({**quiet, "config_file_path": str(settings), "data_dir_path": str(home)}))
     own = {"HOME": str(home), "XDG_CONFIG_HOME": str(home / "config"), "XDG_DATA_HOME": str(home)}
-    command = [Path(sys.executable).with_name("rerun"), "rrd", "verify", path]
-    done = subprocess.run(command, env={**os.environ, **own}, capture_output=True, text=True, timeout=60)
+    command = [Path(str(rerun_cli.__file__)).with_name("rerun"), *map(str, arguments)]
+    return subprocess.run(command, env={**os.environ, **own}, capture_output=True, text=True, timeout=300)
+
+
+def told_by_the_verifier(path: Path, home: Path) -> str:
+    """What ``rerun rrd verify`` prints; a failure is an error."""
+    done = rerun(home, "rrd", "verify", path)
     assert done.returncode == 0, done.stderr
     return done.stdout + done.stderr
