@@ -272,15 +272,19 @@ def test_a_growing_file_reaches_a_viewer_and_the_outputs(tmp_path: Path) -> None
         thread.join()
         whole = read([source]).log
         wait_for(lambda: len(watcher.messages["/glider/attitude"]) >= len(whole["heading"]), "the last samples")
+        late = Watcher(run.url())
+        wait_for(lambda: bool(late.messages.get("/map/track")), "the track for one who comes late")
         assert run.end(signal.SIGINT) == 0, run.said
         watcher.until_closed()
+        late.until_closed()
     times = [at for at, _ in watcher.messages["/glider/attitude"]]
     assert times == whole["heading"].time_ns.tolist()
     assert watcher.clocks[-1] == whole.end_ns
     back = read([tmp_path / "a.mcap"]).log
     for name, channel in whole.channels.items():
         assert same(back[name], channel), name
-    assert "/map/track" in watcher.messages
+    assert len(watcher.messages["/map/track"]) > 1
+    assert late.messages["/map/track"] == watcher.messages["/map/track"][-1:]  # the last one counts
 
 
 def test_channels_that_come_later_reach_a_viewer_whole(tmp_path: Path) -> None:
