@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-import os
-import pty
 import shutil
 import subprocess
 import sys
-import termios
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from conftest import GLIDER, ROOT, Run, one_line_error
+from conftest import ROOT, Run, one_line_error
+from terminals import on_a_terminal
 
 LOGS = ROOT / "logs/seaexplorer-sea035"
 
@@ -120,17 +117,8 @@ def test_inputs_are_all_that_was_read_and_no_more(glider: Run, tmp_path: Path) -
 def test_notes_are_wrapped_for_a_terminal_alone(glider: Run, tmp_path: Path) -> None:
     piped = glider("replay", LOGS).stdout
     assert max(map(len, piped.splitlines())) > 200
-    ours, theirs = pty.openpty()
-    termios.tcsetwinsize(theirs, (40, 80))
-    done = subprocess.Popen([GLIDER, "replay", str(LOGS), "--quiet"], stdout=theirs, stderr=theirs)
-    os.close(theirs)
-    shown = b""
-    with contextlib.suppress(OSError):  # the end of a terminal
-        while piece := os.read(ours, 4096):
-            shown += piece
-    os.close(ours)
-    assert done.wait(60) == 0
-    lines = shown.decode().splitlines()
+    code, lines = on_a_terminal(80, "replay", LOGS, "--quiet")
+    assert code == 0
     assert max(map(len, lines)) <= 80
     assert " ".join(" ".join(lines).split()) == " ".join(piped.split())
 

@@ -39,6 +39,7 @@ def check_grown(folder: Path, source: Path, seed: int, pieces: int = 30) -> list
         for _ in growing(source, folder / source.name, pieces, seed):
             if (step := follower.look()) is not None:
                 shown.append(step.piece)
+                last = step.log
                 for name, channel in step.log.channels.items():
                     if channel.origin == "measured":  # no half record: each sample is one of the whole file
                         at = np.searchsorted(whole[name].time_ns, channel.time_ns)
@@ -46,6 +47,8 @@ def check_grown(folder: Path, source: Path, seed: int, pieces: int = 30) -> list
                         assert np.array_equal(whole[name].values[at], channel.values), name
         assert follower.look() is None
     plain = read([folder]).log
+    assert last.channels.keys() == plain.channels.keys()
+    assert all(same(last[name], channel) for name, channel in plain.channels.items())
     got = appended(shown)
     assert got.keys() == plain.channels.keys()
     changed = {
@@ -78,19 +81,26 @@ def test_slocum_cycles(tmp_path: Path) -> None:
 
 
 def test_slocum_never_shows_half_a_cycle(tmp_path: Path) -> None:
-    """Cut at each of the 120 places, a file gives only samples of the whole."""
+    """Cut at each of 120 places about the start of a cycle, the tag d, a file gives only cycles that are whole."""
     source = LOGS / "slocum-comet-2019"
     for cache in source.glob("*.cac"):
         shutil.copy(cache, tmp_path)
     data = (source / "comet-2019-218-00-034.dbd").read_bytes()
     whole = read([source / "comet-2019-218-00-034.dbd"]).log
-    for size in range(60_000, 60_120):
+    counts = []
+    for size in range(60_370, 60_490):
         (tmp_path / "a.dbd").write_bytes(data[:size])
         log = read([tmp_path / "a.dbd"]).log
-        for name, channel in log.channels.items():
-            if channel.origin == "measured":
-                at = np.searchsorted(whole[name].time_ns, channel.time_ns)
-                assert np.array_equal(whole[name].values[at], channel.values), (size, name)
+        measured = {name: channel for name, channel in log.channels.items() if channel.origin == "measured"}
+        for name, channel in measured.items():
+            at = np.searchsorted(whole[name].time_ns, channel.time_ns)
+            assert np.array_equal(whole[name].time_ns[at], channel.time_ns), (size, name)
+            assert np.array_equal(whole[name].values[at], channel.values), (size, name)
+        counts.append({name: len(channel) for name, channel in measured.items()})
+    start = data.index(b"d", 60_420)
+    assert all(count == counts[0] for count in counts[: start - 60_370])
+    assert all(count == counts[-1] for count in counts[start - 60_370 :])
+    assert counts[-1]["depth"] == counts[0]["depth"] + 1
 
 
 def test_own_csv(tmp_path: Path) -> None:
@@ -262,15 +272,19 @@ def test_a_growing_file_reaches_a_viewer_and_the_outputs(tmp_path: Path) -> None
         thread.join()
         whole = read([source]).log
         wait_for(lambda: len(watcher.messages["/glider/attitude"]) >= len(whole["heading"]), "the last samples")
+        late = Watcher(run.url())
+        wait_for(lambda: bool(late.messages.get("/map/track")), "the track for one who comes late")
         assert run.end(signal.SIGINT) == 0, run.said
         watcher.until_closed()
+        late.until_closed()
     times = [at for at, _ in watcher.messages["/glider/attitude"]]
     assert times == whole["heading"].time_ns.tolist()
     assert watcher.clocks[-1] == whole.end_ns
     back = read([tmp_path / "a.mcap"]).log
     for name, channel in whole.channels.items():
         assert same(back[name], channel), name
-    assert "/map/track" in watcher.messages
+    assert len(watcher.messages["/map/track"]) > 1
+    assert late.messages["/map/track"] == watcher.messages["/map/track"][-1:]  # the last one counts
 
 
 def test_channels_that_come_later_reach_a_viewer_whole(tmp_path: Path) -> None:

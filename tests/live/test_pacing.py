@@ -5,7 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from glidercli.live import showing
+from glidercli.live.choices import Choices
 from glidercli.live.pacing import Pace
+from glidercli.live.viewers import Viewers
 from glidercli.log import Channel, Event, Log
 
 BILLION = 10**9
@@ -40,7 +43,7 @@ def test_every_sample_comes_once_at_its_time(rate: float) -> None:
         assert piece.channels.keys() == whole.channels.keys()
         shown_ns = pace.start_ns + (clock.now - 5.0) * rate * BILLION
         # two roundings of a float of 1e3 s and one to whole ns
-        assert now_ns <= min(shown_ns, pace.end_ns) + 1e3
+        assert abs(now_ns - min(shown_ns, pace.end_ns)) <= 1e3
         for found, name in ((depth, "depth"), (pitch, "pitch")):
             assert (piece[name].time_ns <= now_ns).all()
             found += piece[name].time_ns.tolist()
@@ -63,5 +66,28 @@ def test_a_pause_does_not_count() -> None:
             pace.paused(1000.0)
         elapsed = clock.now - 5.0 - (1000.0 if number > 100 else 0.0)
         if number != 100:
-            assert now_ns <= pace.start_ns + elapsed * 10.0 * BILLION + 1e3
+            assert abs(now_ns - min(pace.start_ns + elapsed * 10.0 * BILLION, pace.end_ns)) <= 1e3
     assert clock.now - 1005.0 == pytest.approx(100.9, abs=2e-3)
+
+
+def test_the_play_goes_on_where_it_paused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nobody watches for 1000 s after the hundredth piece."""
+    clock = Clock()
+    shown: list[int] = []
+
+    class Left(Viewers):
+        def show(self, piece: Log, now_ns: int) -> None:
+            shown.append(now_ns)
+
+        def await_return(self) -> float:
+            clock.now += 1000.0 if len(shown) == 100 else 0.0
+            return 1000.0 if len(shown) == 100 else 0.0
+
+        def each(self, *_: object) -> None:
+            pass
+
+    monkeypatch.setattr(showing, "Pace", lambda log, rate: Pace(log, rate, clock, clock.sleep))
+    showing._play(log(), 10.0, Left(Choices(), print))
+    assert len(shown) > 200
+    # a step of 0.2 s of the clock, with two roundings of a float of 1e3 s
+    assert np.diff(shown).max() <= 2 * BILLION + 1e3

@@ -26,9 +26,8 @@ def possible(name: str) -> st.SearchStrategy[float]:
     if name == "phase":
         return st.integers(0, len(PHASES) - 1).map(float)
     low, high = quantity_of(name).low, quantity_of(name).high
-    # a thousandth short of the ends, which units of tables round
-    inside = st.floats(low + 1e-3 * abs(low), high - 1e-3 * abs(high), allow_nan=False)
-    return st.sampled_from([value for value in SPECIAL if low <= value <= high] or [low]) | inside
+    special = [value for value in SPECIAL if low <= value <= high]
+    return st.sampled_from([low, high, *special]) | st.floats(low, high, allow_nan=False)
 
 
 @st.composite

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 
@@ -108,15 +109,25 @@ def test_depth_follows_from_pressure_alone() -> None:
     assert abs(poles - 1.0) == pytest.approx(0.0027, abs=0.0001)
 
 
-@pytest.mark.parametrize(("first", "last", "told"), [(600, 1100, False), (700, 1900, False), (600, 890, True)])
-def test_what_missing_samples_miss_is_no_current(first: int, last: int, told: bool) -> None:
-    """Of a dive of 2000 s; a gap of less than 300 s is bridged by the samples beside it."""
+@pytest.mark.parametrize(
+    ("first", "last", "slow", "told"),
+    [
+        (600, 1100, 1, False), (700, 1900, 1, False), (600, 890, 1, True), (600, 910, 1, False),
+        (600, 790, 2, True), (600, 810, 2, False),  # 9.5 % and 10.5 % of the dive
+    ],
+)  # fmt: skip
+def test_what_missing_samples_miss_is_no_current(first: int, last: int, slow: int, told: bool) -> None:
+    """Of a dive of 2000 s, or of twice that; a gap of less than 300 s is bridged by the samples beside it."""
     log, times, _, _ = dive_between_fixes()
     there = (times <= first * SECOND) | (times >= last * SECOND)
     thinned = [Channel(n, times[there], log[n].values[there]) for n in ("depth", "pitch", "heading")]
-    track = with_track(log.with_channels(*thinned))
+    log = log.with_channels(*thinned)
+    track = with_track(
+        log.with_channels(*(dataclasses.replace(c, time_ns=c.time_ns * slow) for c in log.channels.values()))
+    )
     (closure,) = json.loads(track.metadata["closures"])
-    assert closure["silent_s"] == pytest.approx(0.0 if told else last - first, abs=1e-6)
+    gap = (last - first) * slow
+    assert closure["silent_s"] == pytest.approx(gap if gap > 300 else 0.0, abs=1e-6)
     assert (closure["current_north_m_s"] is not None, closure["current_east_m_s"] is not None) == (told, told)
     assert closure["closure_error_m"] > 100.0
     assert ("and no current, since for" in track.metadata["track_note"]) != told
@@ -131,7 +142,9 @@ def test_a_missing_dive_between_two_fixes_is_no_drift() -> None:
         moved = channel.values + (0.1 if name == "latitude" else 0.0)
         times = np.concatenate([channel.time_ns, channel.time_ns + later])
         channels.append(Channel(name, times, np.concatenate([channel.values, moved])))
-    for closure in json.loads(with_track(Log({c.name: c for c in channels}, "measured")).metadata["closures"]):
+    closures = json.loads(with_track(Log({c.name: c for c in channels}, "measured")).metadata["closures"])
+    assert len(closures) == 2
+    for closure in closures:
         for when in ("before", "after"):
             drift = closure[f"drift_{when}_m_s"]
             # 0.1 degree further north the parallel is 0.2 % shorter

@@ -45,6 +45,7 @@ def test_an_ioos_file_without_pressure_has_density_from_depth(tmp_path: Path) ->
         at = file.sel(time=times.astype("datetime64[ns]"), method="nearest")
         p, longitude, latitude = (at[name].values for name in ("pressure", "longitude", "latitude"))
     seen = gsw.rho_t_exact(gsw.SA_from_SP(s, p, longitude % 360.0, latitude), t, p)
+    assert np.isfinite(seen).sum() > 1000
     # the file's depth is that of its pressure to 0.1 m, which is 0.0005 kg/m3
     np.testing.assert_allclose(density[np.isfinite(seen)], seen[np.isfinite(seen)], atol=0.001)
     assert log["density"].origin == "derived"

@@ -192,9 +192,9 @@ def test_the_order_in_which_files_are_given_changes_no_value(tmp_path: Path) -> 
 
 def test_thousands_of_files_of_one_dive_take_no_time() -> None:
     """Each looked at each other one: 37 s for 4,000 that overlap, 20 s for as many that hold the same."""
-    start = time.perf_counter()
+    start = time.process_time()
     for dive, holds in (("d", ()), ("", ("r",))):
         log, reports = joined([part(str(i), [0, 10], "depth", dive=dive, holds=holds) for i in range(4000)])
         assert len(log["depth"]) == 2
         assert accounted(reports)
-    assert time.perf_counter() - start < 15.0  # 1.2 s on a quiet machine
+    assert time.process_time() - start < 15.0  # 1.2 s; not the clock's, which others at work slow down

@@ -154,7 +154,18 @@ def dive() -> tuple[NDArray[np.int64], NDArray[np.float64]]:
 
 @pytest.mark.parametrize(
     "rows",
-    [[50], [50, 51, 52], [20, 120], [0], [0, 1], [199], [198, 199], list(range(0, 200, 9)), list(range(3, 200, 7))],
+    [
+        [50],
+        [50, 51, 52],
+        [50, 51, 52, 53, 54],
+        [20, 120],
+        [0],
+        [0, 1],
+        [199],
+        [198, 199],
+        list(range(0, 200, 9)),
+        list(range(3, 200, 7)),
+    ],
 )
 @pytest.mark.parametrize("by", [150.0, -40.0])
 def test_spikes_of_depth_and_pressure_are_left_out_and_no_speed_comes_of_them(rows: list[int], by: float) -> None:
@@ -184,6 +195,12 @@ def test_a_step_that_does_not_come_back_stays_without_a_speed_or_a_way() -> None
     assert moved["vertical_speed"].values.max() < 0.2
     assert "nor at 2 samples beside a step of depth" in moved.metadata["vertical_speed_note"]
     assert moved["north"].values[-1] < 200 * 0.5 / np.tan(0.4)  # 100 m of depth, not 180
+
+
+def test_six_samples_that_come_back_are_no_spike() -> None:
+    time_ns, depth = dive()
+    depth[50:56] += 150.0
+    assert not spikes(time_ns, depth).any()
 
 
 def test_spikes_beside_one_another_on_either_side_are_left_out() -> None:

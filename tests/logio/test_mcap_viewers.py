@@ -293,8 +293,10 @@ def test_the_rudder_goes_to_the_side_that_the_glider_turns_to(tmp_path: Path) ->
 
 
 def test_the_sea_surface_lies_at_depth_zero(tmp_path: Path) -> None:
-    """A log whose origin is 3 m deep has its surface 3 m above that."""
-    log = full_log().with_channels(channel("down", np.arange(N) * 0.5 - 3.0))
+    """A log whose origin is 3 m deep has its surface 3 m above that, wherever its samples begin."""
+    log = full_log().with_channels(
+        channel("depth", np.arange(N) * 0.5 + 2.0), channel("down", np.arange(N) * 0.5 - 1.0)
+    )
     drawn = written(log.with_metadata(bottom_depth_m="250.0"), tmp_path / "a.mcap")
     ground = drawn["/viz/bottom"][0][1].entities[0]
     assert {p.z for p in ground.triangles[0].points} == {247.0}

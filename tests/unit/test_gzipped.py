@@ -56,6 +56,6 @@ def test_a_bomb_is_refused_before_it_fills_the_memory() -> None:
 def test_many_small_members_take_no_time() -> None:
     """100,000 members in 2 MB: 0.3 s; copying the rest at each took 8 s, and a hundred times that for 20 MB."""
     data = gzip.compress(b"a") * 100_000
-    start = time.perf_counter()
+    start = time.process_time()
     assert unpacked(Path("x"), data) == (b"a" * 100_000, True)
-    assert time.perf_counter() - start < 4.0
+    assert time.process_time() - start < 4.0  # not the clock's, which others at work slow down
