@@ -87,7 +87,7 @@ def test_the_play_goes_on_where_it_paused(monkeypatch: pytest.MonkeyPatch) -> No
             pass
 
     monkeypatch.setattr(showing, "Pace", lambda log, rate: Pace(log, rate, clock, clock.sleep))
-    showing._play(log(), 10.0, Left(Choices(), print))
+    showing._play(log(), 10.0, Left(Choices(wait=1.0), print))
     assert len(shown) > 200
     # a step of 0.2 s of the clock, with two roundings of a float of 1e3 s
     assert np.diff(shown).max() <= 2 * BILLION + 1e3
