@@ -15,6 +15,7 @@ from glidercli.logio.drawable import bottom, origin
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun import still
 from glidercli.logio.rerun.about import about_several
+from glidercli.logio.rerun.axes import Extent, joined
 from glidercli.logio.rerun.chart import Line, chart
 from glidercli.logio.rerun.clocks import aligned
 from glidercli.logio.rerun.contents import PIECE, header, texts
@@ -94,7 +95,12 @@ class Beside:
         page = rr.TextDocument(about_several(sides, notes), media_type=rr.MediaType.MARKDOWN)
         chunks.append(row("/about", page))
         span_ns = max(one.end_ns for one in self._logs) - self._zero_ns
-        return chunks, side_by_side(self._sides, pairs, sea, zoom, span_ns)
+        return chunks, side_by_side(self._sides, pairs, sea, zoom, span_ns, self._extents())
+
+    def _extents(self) -> dict[str, Extent]:
+        """Of the values of each channel in all logs."""
+        names = {name for plots in self._plots for name in plots.extents}
+        return {name: joined(plots.extents[name] for plots in self._plots if name in plots.extents) for name in names}
 
     def _surroundings(self, chunks: list[Chunk], notes: list[str]) -> Sea | None:
         """All tracks, with the sea about them, added to what is drawn and told."""

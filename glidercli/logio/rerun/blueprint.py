@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from glidercli.channels import CHANNELS
@@ -11,6 +11,7 @@ from glidercli.log import Log
 from glidercli.logio.drawable import hull_size, moves_mass
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun import panels
+from glidercli.logio.rerun.axes import Extent, axis
 from glidercli.logio.rerun.sea import Sea, in_words
 from glidercli.logio.rerun.sections import TALL, Section
 
@@ -25,7 +26,8 @@ class Shown:
     """What there is to show beside the channels.
 
     span_ns : length of the whole. sea : surroundings of the track, None without one. has_hull : whether the attitude is
-    known. zoom : of the map, None without one. phases : names of those that depth is coloured by.
+    known. zoom : of the map, None without one. phases : names of those that depth is coloured by. extents : of the
+    values of channels; none of a log that grows, whose axes grow with it.
     """
 
     span_ns: int
@@ -35,6 +37,7 @@ class Shown:
     phases: Sequence[str] = ()
     sections: Sequence[Section] = ()
     current: bool = False
+    extents: Mapping[str, Extent] = dataclasses.field(default_factory=dict)
 
 
 def blueprint(log: Log, shown: Shown) -> Any:
@@ -57,12 +60,12 @@ def blueprint(log: Log, shown: Shown) -> Any:
             if present == ["depth"] and shown.phases:
                 words = f"depth, m: {_words_of(shown.phases)}"
             contents = [f"/{CHANNELS[name].group}/{name}" for name in present]
-            plots.setdefault(tab, []).append(panels.over_time(words, contents))
+            plots.setdefault(tab, []).append(panels.over_time(words, contents, axis(present, shown.extents)))
     flight = plots.pop("Flight", [])
     tabs = {tab: plots.pop(tab, []) for tab in ("Actuators", "Sections", "CTD", "Map", "Current", "Motion")}
-    tabs["Sections"] = [_section(section) for section in shown.sections]
+    tabs["Sections"] = [_section(section, axis(["depth"], shown.extents)) for section in shown.sections]
     if shown.zoom is not None:
-        title = "track and fixes; the map itself comes from the network"
+        title = "track and fixes; map from the network"
         tabs["Map"] = [rrb.MapView(origin="/map", zoom=shown.zoom, name=title)]
     tabs |= panels.told(log)
     columns: list[Any] = [rrb.Vertical(*left, row_shares=[1.25, 1.0][: len(left)])] if left else []
@@ -112,11 +115,11 @@ def _overview(log: Log, shown: Shown, sea: Sea) -> Any:
     return rrb.Tabs(*tabs, active_tab=0)
 
 
-def _section(section: Section) -> Any:
+def _section(section: Section, depths: Extent | None) -> Any:
     """Depth over time in the colours of a quantity, and their bar."""
     import rerun.blueprint as rrb
 
-    plot = panels.over_time(f"{section.title}, over depth, m", [section.over_time])
+    plot = panels.over_time(f"{section.title}, over depth, m", [section.over_time], depths)
     return rrb.Horizontal(plot, _key(section), column_shares=[5.0, 1.0])
 
 

@@ -60,12 +60,14 @@ class Contents:
             yield [*self._plots.values(piece), *self._scene.moving(piece)]
         self._end_ns = max(self._end_ns, log.end_ns)
 
-    def whole(self, log: Log, events: bool = True, sections: str | None = "/section") -> tuple[list[Chunk], Any]:
+    def whole(
+        self, log: Log, events: bool = True, sections: str | None = "/section", grows: bool = False
+    ) -> tuple[list[Chunk], Any]:
         """What can be told when the last piece is there, and the panels, a rerun Blueprint.
 
         log : that piece, with all events and the final metadata. events : whether they are among what is told.
         sections : entity of the water's sections, which stand in time and therefore cannot be drawn anew under the same
-        one; None for none.
+        one; None for none. grows : whether more may come, so that axes are not set.
         """
         import rerun as rr
 
@@ -97,7 +99,8 @@ class Contents:
         chunks.append(row("/about", rr.TextDocument(about(whole, notes), media_type=rr.MediaType.MARKDOWN)))
         has_current = self._scene.currents.count > 0
         phases, span_ns = self._plots.phases, self._end_ns - self._zero_ns
-        shown = Shown(span_ns, sea, self._scene.has_hull, zoom, phases, water, has_current)
+        extents = {} if grows else self._plots.extents
+        shown = Shown(span_ns, sea, self._scene.has_hull, zoom, phases, water, has_current, extents)
         return chunks, blueprint(whole, shown)
 
     def events(self, events: Sequence[Event]) -> list[Chunk]:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from glidercli.channels import CHANNELS
 from glidercli.log import Log
 from glidercli.logio.rerun import colours as look
+from glidercli.logio.rerun.axes import Extent
 
 __all__ = [
     "ASPECT", "COLOURS", "LEFT", "PLOTS", "clock", "events", "hidden", "hull_view", "over_time", "series_name", "space",
@@ -92,15 +93,18 @@ def with_unit(title: str, unit: str, names: Sequence[str], log: Log) -> str:
     return f"{words}, {unit}" + (", derived" if whole else "")
 
 
-def over_time(title: str, contents: Sequence[str], legend: bool = False) -> Any:
-    """A time-series panel over the whole recording."""
+def over_time(title: str, contents: Sequence[str], values: Extent | None, legend: bool = False) -> Any:
+    """A time-series panel over the whole recording. values : ends of its axis; None where they change with time."""
     import rerun as rr
     import rerun.blueprint as rrb
 
     edge = rrb.TimeRangeBoundary.infinite()
     axis = rrb.TimeAxis(view_range=rr.TimeRange(start=edge, end=edge))
     corner = rrb.PlotLegend(rrb.Corner2D.RightBottom, visible=legend)
-    return rrb.TimeSeriesView(origin="/", contents=[*contents], name=title, axis_x=axis, plot_legend=corner)
+    style = dict[str, Any](axis_x=axis, plot_legend=corner)
+    if values is not None:
+        style["axis_y"] = rrb.ScalarAxis(range=values)
+    return rrb.TimeSeriesView(origin="/", contents=[*contents], name=title, **style)
 
 
 def space(title: str, origin: str, contents: Sequence[str], eye: Array, target: Array) -> Any:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.log import Channel, Log
 from glidercli.logio.rerun import colours as look
+from glidercli.logio.rerun.axes import Extent, extent, joined
 from glidercli.logio.rerun.panels import COLOURS, series_name
 from glidercli.logio.rerun.settling import columns, row
 from glidercli.residuals import usual_gap
@@ -36,7 +37,7 @@ class Plots:
 
     log : the first piece; what has samples there is what can come. zero_ns : where elapsed begins, UTC ns.
     colour, label : of a log that is drawn with others; alone, each line has its own colour, depth that of its phase.
-    phases : names of those that came so far.
+    phases : names of those that came so far. extents : of the values that came so far, by channel.
     """
 
     def __init__(
@@ -47,6 +48,7 @@ class Plots:
         self._by_phase = colour is None and {"depth", "phase"} <= {*self._names}
         self._gaps_ns = {name: int(usual_gap(log[name]) * 1e9) for name in self._names}
         self._last_ns: dict[str, int] = {}
+        self.extents: dict[str, Extent] = {}
         self._phase = -1.0
         self._seen: set[int] = set()
 
@@ -85,8 +87,13 @@ class Plots:
                 yield from self._states(piece)
                 continue
             values = channel.values * (-1.0 if name == "depth" else CHANNELS[name].factor)
+            self._extend(name, values)
             times, drawn = self._broken(channel, values)
             yield columns(self._entity(name), self._zero_ns, times, rr.Scalars.columns(scalars=drawn))
+
+    def _extend(self, name: str, values: Array) -> None:
+        new = extent(values)
+        self.extents[name] = joined([self.extents.get(name, new), new])
 
     def _broken(self, channel: Channel, values: Array) -> tuple[Times, Array]:
         """Times and values, with NaN 1 ns after each sample that a gap follows, be it of an earlier piece."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from glidercli.channels import CHANNELS
@@ -10,6 +10,7 @@ from glidercli.log import Log
 from glidercli.logio.drawable import hull_size
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun import panels
+from glidercli.logio.rerun.axes import Extent, axis, extent, joined
 from glidercli.logio.rerun.differences import Difference
 from glidercli.logio.rerun.sea import Sea, in_words
 from glidercli.residuals import on_circle
@@ -55,11 +56,17 @@ class Pair(NamedTuple):
 
 
 def side_by_side(
-    sides: Sequence[Side], pairs: Sequence[Pair], sea: Sea | None, zoom: float | None, span_ns: int
+    sides: Sequence[Side],
+    pairs: Sequence[Pair],
+    sea: Sea | None,
+    zoom: float | None,
+    span_ns: int,
+    extents: Mapping[str, Extent],
 ) -> Any:
     """The rerun Blueprint: 3-D on the left, overlaid flight plots in the middle, differences and the rest on the right.
 
     sea : surroundings of the tracks, zoom : of the map; None without one. span_ns : length of the whole.
+    extents : of the values of each channel in all logs.
     """
     import rerun.blueprint as rrb
 
@@ -73,13 +80,15 @@ def side_by_side(
     if hulls:
         left.append(rrb.Horizontal(*hulls))
     shown = [name for name in FIRST if any(name in side.log for side in sides)][:5]
-    flight = [_overlaid(name, sides, name == shown[0]) for name in shown]
+    flight = [_overlaid(name, sides, axis([name], extents), name == shown[0]) for name in shown]
     tabs = _differences(pairs)
     for tab, _, _, names in panels.PLOTS:
         if tab != "Flight":
             present = [name for name in names if any(name in side.log for side in sides)]
             views = tabs.setdefault(tab, [])
-            views += [_overlaid(name, sides, not views and i == 0) for i, name in enumerate(present)]
+            views += [
+                _overlaid(name, sides, axis([name], extents), not views and i == 0) for i, name in enumerate(present)
+            ]
     if zoom is not None:
         tabs["Map"] = [rrb.MapView(origin="/map", zoom=zoom, name="tracks and fixes; the map comes from the network")]
     if any(side.log.events for side in sides):
@@ -105,12 +114,12 @@ def _overview(sides: Sequence[Side], sea: Sea) -> Any:
     return panels.space(f"{legend}{drawn}, grid {in_words(sea.spacing)}", "/", sights, *sea.camera)
 
 
-def _overlaid(name: str, sides: Sequence[Side], legend: bool) -> Any:
+def _overlaid(name: str, sides: Sequence[Side], values: Extent | None, legend: bool) -> Any:
     """A channel of all logs that have it."""
     contents = [f"{side.place}/{CHANNELS[name].group}/{name}" for side in sides if name in side.log]
     only = [side for side in sides if name in side.log]
     words = panels.series_name(name) + (f", {only[0].short} only" if len(only) == 1 else "")
-    return panels.over_time(words, contents, legend)
+    return panels.over_time(words, contents, values, legend)
 
 
 def _differences(pairs: Sequence[Pair]) -> dict[str, list[Any]]:
@@ -129,5 +138,6 @@ def _differences(pairs: Sequence[Pair]) -> dict[str, list[Any]]:
         title = f"{name.replace('_', ' ')}: {which}, {panels.unit_of(name)} (rms {rms}){zero}"
         tab = "Differences" if place < MOST else f"Differences {place // MOST + 1}"
         legend = len(pairs) > 1 and place % MOST == 0
-        tabs.setdefault(tab, []).append(panels.over_time(title, contents, legend))
+        values = axis([name], {name: joined(extent(one.values) for _, one in found[name])})
+        tabs.setdefault(tab, []).append(panels.over_time(title, contents, values, legend))
     return tabs

@@ -60,7 +60,7 @@ class RerunStream:
         if panels:
             self._times += 1
         entity = f"/section/{self._times}" if panels and sections else None
-        chunks, views = contents.whole(log, events=False, sections=entity)
+        chunks, views = contents.whole(log, events=False, sections=entity, grows=following)
         self._send(chunks)
         if panels:
             if following:
