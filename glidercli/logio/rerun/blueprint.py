@@ -126,6 +126,6 @@ def _section(section: Section, depths: Extent | None) -> Any:
 def _key(section: Section) -> Any:
     import rerun.blueprint as rrb
 
-    bounds = rrb.VisualBounds2D(x_range=(-6.0, 80.0), y_range=(-34.0, TALL + 10.0))
+    bounds = rrb.VisualBounds2D(x_range=(-6.0, 80.0), y_range=(-40.0, TALL + 12.0))
     style = dict[str, Any](visual_bounds=bounds, background=look.BACKGROUND, titlebar=False)
     return rrb.Spatial2DView(origin=section.key, name=panels.unit_of(section.name), **style)

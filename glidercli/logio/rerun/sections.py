@@ -39,6 +39,9 @@ MOST = 10_000
 """Points of a section; longer ones are thinned evenly."""
 TALL, WIDE = 180, 20
 """Size of a colour bar, in its own units."""
+LIFT = 13.0
+"""By how much a label's point stands above its mark: the viewer writes below the point, 14 px to the middle of the text,
+and a bar's unit is 0.9 px in a window of 1400 x 800, 1.2 px in one of 1920 x 1080."""
 
 
 class Section(NamedTuple):
@@ -147,8 +150,8 @@ def _key(section: Section, scale: str, low: float, high: float) -> list[Chunk]:
     digits = max(0, -int(np.floor(np.log10(step))))
     heights = TALL * (1.0 - (marks - low) / (high - low))
     labels = [*(f"{mark:.{digits}f}" for mark in marks), unit_of(section.name)]
-    places = [(WIDE + 6.0 + 4.0 * len(word), height) for word, height in zip(labels, heights, strict=False)]
-    places.append((WIDE / 2 + 14.0, -26.0))
+    places = [(WIDE + 6.0 + 4.0 * len(word), height - LIFT) for word, height in zip(labels, heights, strict=False)]
+    places.append((WIDE / 2 + 14.0, -22.0 - LIFT))
     style = dict[str, Any](show_labels=True, radii=rr.Radius.ui_points(0.1), colors=look.TEXT)
     ticks = rr.LineStrips2D(
         [[(WIDE, height), (WIDE + 5.0, height)] for height in heights],
