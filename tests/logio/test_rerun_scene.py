@@ -14,6 +14,7 @@ from glidercli.channels import CHANNELS
 from glidercli.log import Event
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun.sea import Sea, nice
+from glidercli.logio.rerun.sections import LIFT
 
 
 def sinking(times: Any, **more: Any) -> list[Any]:
@@ -62,7 +63,9 @@ def test_colour_bar_tells_values_and_unit(tmp_path: Path) -> None:
     assert labels == ["1022", "1024", "1026", "kg/m3"]  # of 1020.08 to 1027.92, which hold 98 % of the values
     places = np.array(rows(path, "/key/density/names", "Points2D:positions")[2][0])
     heights = 180.0 * (1.0 - (np.array([1022.0, 1024.0, 1026.0]) - 1020.08) / 7.84)
-    np.testing.assert_allclose(places[:3, 1], heights, atol=1e-4)  # float32
+    marks = np.array(rows(path, "/key/density/ticks", "LineStrips2D:strips")[2][0])
+    np.testing.assert_allclose(marks[:, :, 1], np.column_stack([heights, heights]), atol=1e-4)  # float32
+    np.testing.assert_allclose(places[:3, 1], heights - LIFT, atol=1e-4)
 
 
 def test_water_without_depth_stands_in_lines_alone(tmp_path: Path) -> None:

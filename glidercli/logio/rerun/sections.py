@@ -23,7 +23,7 @@ from glidercli.residuals import usual_gap
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
-__all__ = ["TALL", "Section", "Sections"]
+__all__ = ["LIFT", "TALL", "Section", "Sections"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
