@@ -40,8 +40,8 @@ MOST = 10_000
 TALL, WIDE = 180, 20
 """Size of a colour bar, in its own units."""
 LIFT = 13.0
-"""By how much a label's point stands above its mark: the viewer writes below the point, 14 px to the middle of the text,
-and a bar's unit is 0.9 px in a window of 1400 x 800, 1.2 px in one of 1920 x 1080."""
+"""By how much a label's point stands above its mark: the viewer writes below the point, 14 px to the middle of the
+text, and a bar's unit is 0.9 px in a window of 1400 x 800, 1.2 px in one of 1920 x 1080."""
 
 
 class Section(NamedTuple):
