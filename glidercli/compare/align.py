@@ -1,24 +1,32 @@
 """By how much must a simulated log's clock be shifted to lie on the measured one's?
 
-``none`` leaves UTC as it is, ``start`` puts each log's first depth sample at the same time, ``xcorr`` lays the depth
-curves over each other. An offset in seconds comes on top of each. The shift is added to the simulated log's times.
+``none`` leaves UTC as it is. Three events can be put at the same time: ``start``, each log's first depth sample;
+``gps``, its first position; ``dive``, the begin of its first dive. ``xcorr`` lays the depth curves over each other. An
+offset in seconds comes on top of each. The shift is added to the simulated log's times.
+
+How certain a shift is: an event may lie anywhere between its sample and the next ones, in both logs; the shift of xcorr
+has the standard error of a least-squares fit.
 """
 
 from __future__ import annotations
 
 import dataclasses
-from typing import Literal, get_args
+import math
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glidercli.dives import phases
 from glidercli.errors import InputError
 from glidercli.log import Channel, Log
 from glidercli.units import NANOSECOND
 
 __all__ = ["MOST_OFFSET", "Alignment", "Method", "align", "shifted"]
 
-Method = Literal["none", "start", "xcorr"]
+Array = NDArray[np.float64]
+
+Method = Literal["none", "start", "gps", "dive", "xcorr"]
 """Ways to align two clocks."""
 
 MOST_OFFSET = 1e9
@@ -34,11 +42,33 @@ class Alignment:
 
     shift : s, added to the simulated log's times; the offset is part of it.
     offset : s, as asked for.
+    certainty : s, either way; of xcorr one standard error; None where nothing was estimated, or nothing tells.
+    other : s, another shift at which the depths lie about as close (xcorr), offset included; None without one.
     """
 
     method: Method
     shift: float
     offset: float
+    certainty: float | None = None
+    other: float | None = None
+
+    @property
+    def note(self) -> str:
+        """What the certainty is, in words; "" where nothing was estimated."""
+        if self.method == "none":
+            return ""
+        if self.certainty is None:
+            return "its certainty is not known: the depths lie closest at the last shift that was tried"
+        told = {
+            "start": "half the times between the first two depth samples of both",
+            "gps": "half the times between the first two positions of both",
+            "dive": "half the times between the depth samples where the dives begin, of both",
+            "xcorr": "one standard error, residuals correlated in time counted as fewer",
+        }[self.method]
+        found = f"certain to {self.certainty:.2g} s, {told}"
+        return (
+            found if self.other is None else f"{found}; the depths are about as close at a shift of {self.other:.0f} s"
+        )
 
 
 def align(
@@ -57,19 +87,12 @@ def align(
         raise InputError("offset", f"{offset:g} s; allowed: {-MOST_OFFSET:g} to {MOST_OFFSET:g}")
     if method == "none":
         return Alignment(method, offset, offset)
-    least = 1 if method == "start" else 3
-    for side, log in (("measured", measured), ("simulated", simulated)):
-        samples = len(log["depth"]) if "depth" in log else 0
-        if samples < least:
-            raise InputError(
-                f"align {method}",
-                f"the {side} log has {samples} depth samples; at least {least} are needed, or align none",
-            )
-    first, second = measured["depth"], simulated["depth"]
-    shift = int(first.time_ns[0] - second.time_ns[0]) / 10**9  # division keeps whole seconds whole
     if method == "xcorr":
-        shift += _lag(first, second, max_gap)
-    return Alignment(method, shift + offset, offset)
+        depths = _depth(measured, "measured", method, 3), _depth(simulated, "simulated", method, 3)
+        return _closest(*depths, offset, max_gap)
+    first, second = _event(measured, "measured", method), _event(simulated, "simulated", method)
+    shift = (first.time_ns - second.time_ns) / 10**9  # division keeps whole seconds whole
+    return Alignment(method, shift + offset, offset, 0.5 * (first.apart + second.apart))
 
 
 def shifted(log: Log, shift: float) -> Log:
@@ -77,14 +100,57 @@ def shifted(log: Log, shift: float) -> Log:
     return log.shifted(round(shift / NANOSECOND))
 
 
-def _lag(measured: Channel, simulated: Channel, max_gap: float) -> float:
-    """Shift in s, beyond equal starts, at which the depth curves lie closest.
+class _Event(NamedTuple):
+    """When something was first seen, UTC ns, and the time between samples there, s."""
+
+    time_ns: int
+    apart: float
+
+
+def _depth(log: Log, side: str, method: Method, least: int) -> Channel:
+    """The depth of a log. Raises InputError where it has fewer samples."""
+    samples = len(log["depth"]) if "depth" in log else 0
+    if samples < least:
+        raise InputError(
+            f"align {method}", f"the {side} log has {samples} depth samples; at least {least} are needed, or align none"
+        )
+    return log["depth"]
+
+
+def _event(log: Log, side: str, method: Method) -> _Event:
+    """The event of a log that a method goes by. Raises InputError where the log has none."""
+    if method == "gps":
+        known = {"latitude", "longitude"} <= log.channels.keys()
+        times = log.together("latitude", "longitude")[0] if known else np.empty(0, np.int64)
+        if not len(times):
+            raise InputError("align gps", f"the {side} log has no position; allowed: none, start, dive, xcorr")
+        return _seen(times, int(times[0]))
+    times = _depth(log, side, method, 1).time_ns
+    if method == "start":
+        return _seen(times, int(times[0]))
+    begun = next((leg.start_ns for leg in phases(log) if leg.name == "dive"), None)
+    if begun is None:
+        raise InputError("align dive", f"the {side} log has no dive; allowed: none, start, gps, xcorr")
+    return _seen(times, begun)
+
+
+def _seen(times: NDArray[np.int64], at: int) -> _Event:
+    """An event at a time, with the time between the samples about it."""
+    after = int(np.clip(np.searchsorted(times, at, side="right"), min(1, len(times) - 1), len(times) - 1))
+    return _Event(at, float(times[after] - times[max(after - 1, 0)]) * NANOSECOND)
+
+
+def _closest(measured: Channel, simulated: Channel, offset: float, max_gap: float) -> Alignment:
+    """The alignment at which the depth curves lie closest, by the shift beyond equal starts.
 
     The measure is the mean square difference over the samples that overlap, D(k) = [sum m^2 - 2 sum m s + sum s^2] / n,
     each sum a cross-correlation by FFT. Other than the product m s alone it has one answer on a straight descent too,
     and does not favour long overlaps. Lags that overlap by less than half of the shorter log are left out. A parabola
     through the smallest D(k) and its neighbours gives the peak between steps; D is a parabola for a straight descent.
+    As of any least-squares estimate the variance of the shift is 2 D / (n D''), with D'' the curvature of that parabola
+    and n the number of residuals that are independent: n (1 - r) / (1 + r), where neighbours are correlated by r.
     """
+    equal_starts = int(measured.time_ns[0] - simulated.time_ns[0]) / 10**9
     step = max(_interval(measured), _interval(simulated))
     longest = max(int(c.time_ns[-1] - c.time_ns[0]) for c in (measured, simulated)) * NANOSECOND
     step = max(step, longest / MOST_STEPS)
@@ -97,12 +163,45 @@ def _lag(measured: Channel, simulated: Channel, max_gap: float) -> float:
     enough = overlap >= 0.5 * min(have_m.sum(), have_s.sum())
     distance = np.where(enough, square / np.maximum(overlap, 1.0), np.inf)
     best = int(np.argmin(distance))
-    between = 0.0
+    between, certainty = 0.0, None
     if 0 < best < len(distance) - 1 and np.isfinite(distance[best - 1 : best + 2]).all():
         before, here, after = distance[best - 1 : best + 2]
-        curvature = before - 2.0 * here + after
-        between = 0.5 * float(before - after) / float(curvature) if curvature > 0.0 else 0.0
-    return (best - (len(s) - 1) + between) * step
+        curvature = float(before - 2.0 * here + after)
+        if curvature > 0.0:
+            between = 0.5 * float(before - after) / curvature
+            left = max(float(here) - 0.125 * float(before - after) ** 2 / curvature, 0.0)
+            certainty = step * math.sqrt(2.0 * left / (_independent(m, s, have_m, have_s, best) * curvature))
+    zero = equal_starts - (len(s) - 1) * step + offset
+    other = _as_close(distance, best, 0.02 * float(m.std()))
+    rival = None if other is None else zero + other * step
+    return Alignment("xcorr", zero + (best + between) * step, offset, certainty, rival)
+
+
+def _independent(m: Array, s: Array, have_m: Array, have_s: Array, lag: int) -> float:
+    """Number of independent residuals of the curves at a lag, at least 1."""
+    ahead = lag - (len(s) - 1)
+    a, b = max(ahead, 0), max(-ahead, 0)
+    n = min(len(m) - a, len(s) - b)
+    known = (have_m[a : a + n] > 0) & (have_s[b : b + n] > 0)
+    e = (m[a : a + n] - s[b : b + n])[known]
+    e = e - e.mean()
+    power = float(np.sum(e * e))
+    r = float(np.sum(e[1:] * e[:-1])) / power if power > 0.0 else 0.0
+    return max(len(e) * (1.0 - r) / (1.0 + r), 1.0)
+
+
+def _as_close(distance: Array, best: int, least: float) -> int | None:
+    """The place of another least distance, m2, that is no more than half again as far as the best; None without one.
+
+    least : m, a distance that does not count.
+    """
+    inner = distance[1:-1]
+    lows = np.flatnonzero((inner <= distance[:-2]) & (inner < distance[2:]) & np.isfinite(inner)) + 1
+    lows = lows[lows != best]
+    if not len(lows):
+        return None
+    other = int(lows[np.argmin(distance[lows])])
+    return other if math.sqrt(max(distance[other], 0.0)) <= 1.5 * math.sqrt(max(distance[best], 0.0)) + least else None
 
 
 def _interval(channel: Channel) -> float:
@@ -110,7 +209,7 @@ def _interval(channel: Channel) -> float:
     return float(np.median(np.diff(channel.time_ns))) * NANOSECOND
 
 
-def _resampled(channel: Channel, step: float, max_gap: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _resampled(channel: Channel, step: float, max_gap: float) -> tuple[Array, Array]:
     """Depth every ``step`` s from the first sample, and 1 where it is known, 0 inside a gap."""
     time = (channel.time_ns - channel.time_ns[0]) * NANOSECOND
     grid = np.arange(int(time[-1] / step) + 1) * step
@@ -119,7 +218,7 @@ def _resampled(channel: Channel, step: float, max_gap: float) -> tuple[NDArray[n
     return np.interp(grid, time, channel.values), (gap <= max(max_gap, step)).astype(float)
 
 
-def _correlation(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+def _correlation(a: Array, b: Array) -> Array:
     """Sum over i of a[i + k] b[i] for k = -(len(b) - 1) ... len(a) - 1."""
     size = len(a) + len(b) - 1
     padded = 1 << (size - 1).bit_length()

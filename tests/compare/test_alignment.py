@@ -69,8 +69,62 @@ def test_faults() -> None:
         align(blind, dive(T), "start")
     with pytest.raises(InputError, match="the simulated log has 2 depth samples; at least 3"):
         align(dive(T), dive(T[:2]), "xcorr")
-    with pytest.raises(InputError, match="allowed: none, start, xcorr"):
+    with pytest.raises(InputError, match="allowed: none, start, gps, dive, xcorr"):
         align(dive(T), dive(T), "best")  # type: ignore[arg-type]
     for offset in (float("nan"), 1e12, -1e300):
         with pytest.raises(InputError, match=r"offset: .* s; allowed: -1e\+09 to 1e\+09"):
             align(dive(T), dive(T), offset=offset)
+
+
+def test_events_put_at_the_same_time() -> None:
+    late, measured = 37.0, dive(T + 3.0, late=37.0)
+    begun = align(measured, dive(T), "dive")
+    # a dive begins at the last sample within a fifth of 5 m of the surface: found to a sample of 6 s in each
+    assert begun.shift == pytest.approx(late, abs=6.0)
+    assert begun.certainty == pytest.approx(6.0)  # half of 6 s and of 6 s
+    fixes, places = T[::10] + 500.0, T
+    placed = measured.with_channels(*log(fixes, latitude=0 * fixes, longitude=0 * fixes).channels.values())
+    again = dive(T).with_channels(*log(places, latitude=0 * places, longitude=0 * places).channels.values())
+    found = align(placed, again, "gps", offset=1.5)
+    assert found.shift == pytest.approx(501.5, abs=1e-9)
+    assert found.certainty == pytest.approx(33.0)  # half of 60 s and of 6 s
+
+
+def test_events_that_are_not_there() -> None:
+    with pytest.raises(InputError, match="align gps: the measured log has no position; allowed: none, start, dive"):
+        align(dive(T), dive(T), "gps")
+    flat = log(T, depth=3.0 + 0.0 * T)
+    with pytest.raises(InputError, match="align dive: the simulated log has no dive"):
+        align(dive(T), flat, "dive")
+
+
+def test_the_clocks_as_they_are_have_no_certainty() -> None:
+    found = align(dive(T), dive(T), offset=3.0)
+    assert (found.certainty, found.other, found.note) == (None, None, "")
+
+
+@pytest.mark.parametrize("memory", [0.0, 0.8])
+def test_certainty_of_xcorr_is_the_scatter_of_repeated_trials(memory: float) -> None:
+    """Noise of 2 m on a dive to 200 m, white or with memory from sample to sample."""
+    rng = np.random.default_rng(11)
+    shifts, told = [], []
+    for _ in range(200):
+        noise = rng.normal(0.0, 2.0, len(T))
+        for i in range(1, len(T)):
+            noise[i] = memory * noise[i - 1] + np.sqrt(1.0 - memory**2) * noise[i]
+        found = align(log(T, depth=vee(200.0, 1200.0, 1000.0)(T - 290.0) + noise), dive(T), "xcorr")
+        shifts.append(found.shift)
+        told.append(found.certainty)
+    # the scatter of 200 draws is known to 5 %; at the corners of a dive the slope, so the curvature, changes by 10 %
+    assert np.median(told) == pytest.approx(np.std(shifts), rel=0.25)
+
+
+def test_xcorr_tells_of_another_dive_that_fits_as_well() -> None:
+    def yos(t):
+        return sum(vee(100.0, 400.0, 400.0)(t - start) for start in (100.0, 1100.0, 2100.0))
+
+    found = align(log(T, depth=yos(T)), log(T[:170], depth=yos(T[:170])), "xcorr")
+    assert found.other is not None
+    assert abs(found.shift - found.other) in (pytest.approx(1000.0, abs=6.0), pytest.approx(2000.0, abs=6.0))
+    assert "about as close" in found.note
+    assert align(dive(T, 90.0), dive(T), "xcorr").other is None
