@@ -8,6 +8,7 @@ nothing is interpolated.
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Literal
 
@@ -122,6 +123,22 @@ class Log:
             channel.values if channel.time_ns is times else channel.values[np.searchsorted(channel.time_ns, times)]
             for channel in (self[name] for name in names)
         ]
+
+    def number(self, key: str) -> float | None:
+        """A number told by the metadata, or None where it is missing, not finite or no number."""
+        try:
+            value = float(self.metadata[key])
+        except (KeyError, ValueError):
+            return None
+        return value if math.isfinite(value) else None
+
+    @property
+    def place(self) -> tuple[float, float] | None:
+        """Latitude and longitude, deg, of what north and east are counted from; None where they are unknown."""
+        latitude, longitude = self.number("origin_latitude_deg"), self.number("origin_longitude_deg")
+        if latitude is None or longitude is None or not abs(latitude) <= 90.0 or not abs(longitude) <= 360.0:
+            return None
+        return latitude, longitude
 
     def with_channels(self, *channels: Channel) -> Log:
         """This log with these channels added or replaced."""

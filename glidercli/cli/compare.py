@@ -22,6 +22,8 @@ class Align(StrEnum):
 
     NONE = "none"
     START = "start"
+    GPS = "gps"
+    DIVE = "dive"
     XCORR = "xcorr"
 
 
@@ -33,7 +35,8 @@ def compare(
     align: Annotated[
         Align,
         typer.Option(
-            help="Clocks: none as they are, start at the first depth sample, xcorr where the depths lie closest."
+            help="Clocks: none as they are; at the first depth sample (start), position (gps) or dive; "
+            "xcorr where the depths lie closest."
         ),
     ] = Align.NONE,
     offset: Annotated[float, typer.Option(metavar="S", help="Seconds added to the simulated times after that.")] = 0.0,
@@ -42,6 +45,9 @@ def compare(
     ] = 60.0,
     channels: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="Channel or quoted pattern (mass_*); may repeat.")
+    ] = None,
+    depth_band: Annotated[
+        float | None, typer.Option(metavar="M", help="Width of the bands of depth that errors are told by, m.")
     ] = None,
     cache: CacheOption = None,
     columns: ColumnsOption = None,
@@ -65,6 +71,8 @@ def compare(
         raise InputError("--max-gap", f"{max_gap} s is not allowed; a positive time is needed")
     if not abs(offset) <= MOST_OFFSET:
         raise InputError("--offset", f"{offset:g} s is not allowed; {-MOST_OFFSET:g} to {MOST_OFFSET:g} are")
+    if depth_band is not None and not depth_band >= 0.1:
+        raise InputError("--depth-band", f"{depth_band:g} m is not allowed; 0.1 m or more is needed")
     try:
         matching(channels or [])
     except InputError as error:
@@ -82,8 +90,8 @@ def compare(
 
             against = read_facts(facts)
             inputs.append(facts)
-            if align != Align.NONE or offset:
-                warn(["--align and --offset have no effect on a comparison with published values"], quiet)
+            if align != Align.NONE or offset or depth_band is not None:
+                warn(["--align, --offset and --depth-band have no effect on a comparison with published values"], quiet)
         else:
             against = _log(measured, source, inputs, quiet)
         logs = [_log(name, source, inputs, quiet) for name in simulated]
@@ -96,6 +104,7 @@ def compare(
             offset=offset,
             max_gap=max_gap,
             channels=channels,
+            depth_band=depth_band,
             names=[measured, *simulated],
         )
         recorded = [run.side for run in comparison.runs if run.side.origin in ("measured", "derived")]

@@ -9,9 +9,13 @@ from typing import Any
 
 from glidercli.channels import CHANNELS, by_column
 from glidercli.compare.align import Alignment, Method, align, shifted
+from glidercli.compare.by_depth import Band, by_depth
 from glidercli.compare.errors import Errors, statistics
-from glidercli.compare.events import EventPair, events_of, paired
+from glidercli.compare.events import EventPair, events_of, located, paired
 from glidercli.compare.facts import Facts
+from glidercli.compare.outcomes import Outcome, outcomes
+from glidercli.compare.ranking import Ranked, ranked
+from glidercli.compare.tracks import TrackErrors, tracks
 from glidercli.compare.verdicts import FactVerdict, judged
 from glidercli.dives import LEGS, Interval, mask, phases
 from glidercli.errors import InputError
@@ -54,7 +58,9 @@ class Run:
     """One simulated log against the measured side; what does not apply to facts is empty, and the other way round.
 
     log : the simulated log on the measured clock.
-    channels, by_phase : statistics of each channel, over the whole flight and by phase of the measured log.
+    channels, by_phase, bands : statistics of each channel, over the whole flight, by phase and by depth of the
+        measured log.
+    outcomes : figures of both flights. track : errors of the track, None where a log has none.
     notes : what a reader of the errors must know, one line each.
     """
 
@@ -64,6 +70,9 @@ class Run:
     residuals: Mapping[str, Residuals] = dataclasses.field(default_factory=dict)
     channels: Mapping[str, Errors] = dataclasses.field(default_factory=dict)
     by_phase: Mapping[str, Mapping[str, Errors]] = dataclasses.field(default_factory=dict)
+    bands: tuple[Band, ...] = ()
+    outcomes: tuple[Outcome, ...] = ()
+    track: TrackErrors | None = None
     events: tuple[EventPair, ...] = ()
     facts: tuple[FactVerdict, ...] = ()
     notes: tuple[str, ...] = ()
@@ -87,6 +96,11 @@ class Comparison:
         touched = any(side.reconstruction or side.origin == "reconstruction" for side in sides)
         return "reconstruction" if touched else "simulated"
 
+    @property
+    def ranking(self) -> tuple[Ranked, ...]:
+        """The simulations from the closest on; see ranking.py."""
+        return ranked(self.runs)
+
     def document(self) -> dict[str, Any]:
         """The JSON document of the contract; see document.py for its keys."""
         from glidercli.compare.document import document
@@ -108,6 +122,7 @@ def compare(
     offset: float = 0.0,
     max_gap: float = MAX_GAP,
     channels: Sequence[str] | None = None,
+    depth_band: float | None = None,
     names: Sequence[str] | None = None,
 ) -> Comparison:
     """Compare one or more simulated logs with a measured one, or with published values.
@@ -116,6 +131,7 @@ def compare(
     offset : s, added to the simulated times after that.
     max_gap : s, positive: simulated samples further apart are not interpolated between.
     channels : names, column names or patterns (mass_*) of the channels to compare; default: all that both sides have.
+    depth_band : m, positive: width of the bands of depth that errors are told by; default: one that makes a few.
     names : what to call the measured side and each simulated log; default: "measured" and "simulated".
 
     Raises InputError when nothing can be compared: no common channel, no measured sample within the simulated ones.
@@ -135,7 +151,7 @@ def compare(
         return Comparison(side, measured, runs, max_gap, chosen)
     intervals = phases(measured)
     runs = tuple(
-        _run(measured, log, labels[0], name, intervals, (align, offset, max_gap), chosen)
+        _run(measured, log, labels[0], name, intervals, (align, offset, max_gap), chosen, depth_band)
         for log, name in zip(logs, labels[1:], strict=True)
     )
     return Comparison(_side(measured, labels[0]), measured, runs, max_gap, chosen)
@@ -173,6 +189,7 @@ def _run(
     intervals: tuple[Interval, ...],
     clock: tuple[Method, float, float],
     chosen: tuple[str, ...] | None,
+    depth_band: float | None,
 ) -> Run:
     method, offset, max_gap = clock
     alignment = align(measured, simulated, method, offset, max_gap)
@@ -184,6 +201,10 @@ def _run(
     if not any(len(error.error) for error in errors.values()):
         raise InputError(name, _nothing(measured, log, errors, alignment.shift, max_gap, measured_name))
     parts = {leg: {channel: _part(error, intervals, leg) for channel, error in errors.items()} for leg in LEGS}
+    bands, without_depth = by_depth(measured, errors, depth_band, max_gap)
+    both = tracks(measured, log)
+    track = both and both.errors(max_gap)
+    pairs = paired(events_of(measured, intervals), events_of(log, phases(log)))
     return Run(
         _side(simulated, name),
         log,
@@ -191,8 +212,11 @@ def _run(
         errors,
         {channel: statistics(error) for channel, error in errors.items()},
         {leg: {c: s for c, s in found.items() if s.n or s.outside or s.gap} for leg, found in parts.items()},
-        paired(events_of(measured, intervals), events_of(log, phases(log))),
-        notes=tuple(_other_zeros(measured, simulated, errors)),
+        bands,
+        outcomes(measured, log, track),
+        track,
+        located(pairs, both, max_gap),
+        notes=(*_other_zeros(measured, simulated, errors), *_no_depth(without_depth)),
     )
 
 
@@ -205,6 +229,13 @@ def _other_zeros(measured: Log, simulated: Log, channels: Iterable[str]) -> Iter
                 f"{side}: {zero}" for side, zero in zip(("measured", "simulated"), zeros, strict=True) if zero
             )
             yield f"{channel.replace('_', ' ')} is counted from different zeros ({told}): its errors hold that offset"
+
+
+def _no_depth(counts: Mapping[str, int]) -> Iterator[str]:
+    """Samples that are in no band of depth."""
+    if counts:
+        told = ", ".join(f"{count} of {name.replace('_', ' ')}" for name, count in counts.items())
+        yield f"samples without a measured depth at their time are in no band of depth: {told}"
 
 
 def _part(error: Residuals, intervals: tuple[Interval, ...], leg: str) -> Errors:

@@ -8,10 +8,11 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from glidercli.compare.document import document
+from glidercli.compare.document import document, part_of
 from glidercli.compare.facts import Facts
 from glidercli.errors import OutputError
 from glidercli.files import atomic, metadata_path
+from glidercli.log import Log
 
 if TYPE_CHECKING:
     from glidercli.compare.comparison import Comparison
@@ -62,11 +63,11 @@ def _json(value: Any) -> str:
 
 
 def _write_csv(comparison: Comparison, path: Path) -> None:
-    """One row per simulation, phase and channel; for facts one per simulation and fact; an empty cell is no value."""
+    """One row per simulation, phase or depth band, and channel; for facts one per fact. An empty cell is no value."""
     with path.open("w", encoding="utf-8", newline="") as stream:
         rows = csv.writer(stream, lineterminator="\n")
-        parts = document(comparison)
-        runs = parts.get("simulations") or [{"name": comparison.runs[0].side.name, **parts}]
+        measured = comparison.against if isinstance(comparison.against, Log) else None
+        runs = [{"name": run.side.name, **part_of(run, measured)} for run in comparison.runs]
         kinds = [run.side.kind for run in comparison.runs]
         if isinstance(comparison.against, Facts):
             rows.writerow(("simulation", "simulated_origin", *_FACTS))
@@ -76,7 +77,8 @@ def _write_csv(comparison: Comparison, path: Path) -> None:
         ends = ("skipped_outside", "skipped_gap", "measured_origin", "simulated_origin")
         rows.writerow(("simulation", "phase", "channel", *_ERRORS, *ends))
         for run, kind in zip(runs, kinds, strict=True):
-            for phase, channels in {"flight": run["channels"], **run["phases"]}.items():
+            bands = {f"{band['from_m']:g}-{band['to_m']:g} m": band["channels"] for band in run["bands"]}
+            for phase, channels in {"flight": run["channels"], **run["phases"], **bands}.items():
                 for name, one in channels.items():
                     skipped = one["skipped"].values()
                     numbers = (one[key] for key in _ERRORS)

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from glidercli.compare.errors import Errors
+from glidercli.compare.events import EventPair
 from glidercli.compare.facts import FLIGHT, Facts
+from glidercli.compare.tracks import TrackErrors
+from glidercli.units import NANOSECOND
+from glidercli.utc import to_second
 
 if TYPE_CHECKING:
     from glidercli.compare.comparison import Comparison, Run
@@ -14,27 +19,113 @@ if TYPE_CHECKING:
 __all__ = ["text"]
 
 _ERRORS = ("channel", "unit", "n", "rmse", "mae", "bias", "std", "max", "correlation", "nrmse", "skipped")
+_TOLD = ("deepest", "apogee", "bottom", "surfacing")
+"""Events that are told to people; recordings have hundreds of others."""
+_MOST_BANDS = 8
+"""Bands of depth that a terminal has room for."""
 _FACTS = ("fact", "published", "simulated", "unit", "verdict", "place")
 
 
 def text(comparison: Comparison) -> str:
     """The whole comparison as lines."""
-    return "\n\n".join("\n".join(_run(comparison, run)) for run in comparison.runs)
+    parts = [_run(comparison, run) for run in comparison.runs]
+    if len(parts) > 1:
+        parts.append(_ranking(comparison))
+    return "\n\n".join("\n".join(part) for part in parts)
 
 
 def _run(comparison: Comparison, run: Run) -> list[str]:
     if isinstance(comparison.against, Facts):
         return _facts(comparison, comparison.against, run)
-    clock = run.alignment
-    shift = f"clock of {run.side.name} shifted by {clock.shift:z.3f} s (align {clock.method})" if clock else ""
-    lines = [
-        f"Compared {run.side} with {comparison.measured}; {shift}.",
-        f"Errors are {run.side.name} less {comparison.measured.name}.",
-    ]
+    lines = [f"Compared {run.side} with {comparison.measured}; {_clock(run)}."]
+    lines.append(f"Errors are {run.side.name} less {comparison.measured.name}.")
     for title, rows in (("flight", run.channels), *run.by_phase.items()):
         if rows:
             lines += ["", f"{title}:", *_table(_ERRORS, [_row(name, errors) for name, errors in rows.items()], 2)]
+    if len(run.bands) > 1:
+        lines += ["", "rmse by measured depth, m:", *_bands(run)]
+    if run.outcomes:
+        lines += ["", "both flights, over the time that both cover:", *_outcomes(run)]
+    if run.track is not None:
+        lines += ["", *_track(run.track)]
+    if events := [pair for pair in run.events if pair.name in _TOLD and pair.measured and pair.simulated]:
+        lines += ["", "events:", *_events(events)]
     return [*lines, "", *(f"Note: {note}." for note in run.notes)] if run.notes else lines
+
+
+def _clock(run: Run) -> str:
+    """How its clock was laid on the measured one's."""
+    if run.alignment is None:
+        return ""
+    shift = f"clock of {run.side.name} shifted by {run.alignment.shift:z.3f} s (align {run.alignment.method})"
+    return f"{shift}, {run.alignment.note}" if run.alignment.note else shift
+
+
+def _bands(run: Run) -> list[str]:
+    """The root mean square error of each channel in each band of depth."""
+    shown = run.bands[:_MOST_BANDS]
+    head = ("channel", "unit", *(f"{band.top:g}-{band.bottom:g}" for band in shown))
+    rows = [
+        [name, one.unit, *(_number(band.channels[name].rmse if name in band.channels else None) for band in shown)]
+        for name, one in run.channels.items()
+        if any(name in band.channels for band in shown)
+    ]
+    left = len(run.bands) - len(shown)
+    return [*_table(head, rows, 2), *([f"{left} deeper bands are in the outputs and in --json."] if left else [])]
+
+
+def _outcomes(run: Run) -> list[str]:
+    rows = [
+        [one.name, one.unit, *map(_number, (one.measured, one.simulated, one.difference)), _percent(one.relative)]
+        for one in run.outcomes
+    ]
+    return _table(("figure", "unit", "measured", "simulated", "difference", "relative"), rows, 2)
+
+
+def _track(track: TrackErrors) -> list[str]:
+    """The errors of a track in sentences."""
+    far, left = track.absolute, track.aligned
+    kind = "Level track" if track.level else "Track"
+    lines = [
+        f"{kind} of {far.n} samples, both {track.origin}: {_number(far.rmse)} m off (rmse; mean {_number(far.mean)}, "
+        f"largest {_number(far.max)} m).",
+        f"After a turn of {math.degrees(track.turn):z.1f} deg and a shift: {_number(left.rmse)} m.",
+    ]
+    for one in track.relative:
+        of_way = f", {_percent(one.of_way)} of the way" if one.of_way is not None else ""
+        lines.append(f"Drift over {one.over:g} s: {_number(one.rmse)} m (rmse of {one.n} pairs){of_way}.")
+    return lines
+
+
+def _events(pairs: list[EventPair]) -> list[str]:
+    """Those of all events that say how a dive went."""
+    rows = []
+    for pair in pairs:
+        assert pair.measured is not None
+        assert pair.simulated is not None
+        later = (pair.simulated.time_ns - pair.measured.time_ns) * NANOSECOND
+        depths = pair.measured.depth, pair.simulated.depth
+        deeper = None if depths[0] is None or depths[1] is None else depths[1] - depths[0]
+        apart = None if pair.apart is None else math.hypot(*pair.apart)
+        of_way = None if apart is None or not pair.way else apart / pair.way
+        numbers = [*map(_number, (later, *depths, deeper, apart))]
+        rows.append([pair.name, to_second(pair.measured.time_ns), *numbers, _percent(of_way)])
+    head = ("event", "measured, UTC", "later, s", "depth, m", "simulated", "deeper, m", "apart, m", "of the way")
+    return _table(head, rows, 2)
+
+
+def _ranking(comparison: Comparison) -> list[str]:
+    """The simulations from the closest on."""
+    if isinstance(comparison.against, Facts):
+        meaning = "part of the judged facts that agree, those given to a simulation apart"
+    else:
+        meaning = "mean of nrmse over the channels that all have"
+    rows = [[_number(one.rank), one.name, _number(one.score), str(one.of)] for one in comparison.ranking]
+    return [f"The closest first ({meaning}):", *_table(("rank", "simulation", "score", "of"), rows, 0, left=(1,))]
+
+
+def _percent(part: float | None) -> str:
+    return "-" if part is None else f"{100.0 * part:z.3g} %"
 
 
 def _row(name: str, errors: Errors) -> list[str]:

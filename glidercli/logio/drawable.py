@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from glidercli.log import Log
 
 __all__ = [
@@ -15,11 +13,7 @@ STAND_IN = (2.0, 0.22)  # m, length and diameter of a usual glider
 
 def number(log: Log, key: str) -> float | None:
     """A number told by the log's metadata, or None where it is missing, not finite or no number."""
-    try:
-        value = float(log.metadata[key])
-    except (KeyError, ValueError):
-        return None
-    return value if math.isfinite(value) else None
+    return log.number(key)
 
 
 def hull_size(log: Log) -> tuple[float, float, bool]:
@@ -69,10 +63,7 @@ def _zero_known(log: Log) -> bool:
 
 def origin(log: Log) -> tuple[float, float] | None:
     """Latitude and longitude, deg, of what north and east are counted from; None where they are unknown."""
-    latitude, longitude = number(log, "origin_latitude_deg"), number(log, "origin_longitude_deg")
-    if latitude is None or longitude is None or not abs(latitude) <= 90.0 or not abs(longitude) <= 360.0:
-        return None
-    return latitude, longitude
+    return log.place
 
 
 def bottom(log: Log) -> float | None:
