@@ -23,7 +23,9 @@ from glidercli.channels import PHASES
 from glidercli.errors import InputError
 from glidercli.log import Channel, Log
 
-__all__ = ["LEAST_GAP", "LEGS", "MANY", "Interval", "cuts", "long_gaps", "mask", "phases", "turning_points"]
+__all__ = [
+    "LEAST_GAP", "LEAST_RANGE", "LEGS", "MANY", "Interval", "cuts", "long_gaps", "mask", "phases", "turning_points",
+]  # fmt: skip
 
 Times = NDArray[np.int64]
 

@@ -17,7 +17,7 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.dives import phases
+from glidercli.dives import LEAST_RANGE, phases
 from glidercli.errors import InputError
 from glidercli.log import Channel, Log
 from glidercli.units import NANOSECOND
@@ -57,8 +57,10 @@ class Alignment:
         """What the certainty is, in words; "" where nothing was estimated."""
         if self.method == "none":
             return ""
-        if self.certainty is None:
+        if self.certainty is None and self.method == "xcorr":
             return "its certainty is not known: the depths lie closest at the last shift that was tried"
+        if self.certainty is None:
+            return "its certainty is not known: one of the logs has a single sample"
         told = {
             "start": "half the times between the first two depth samples of both",
             "gps": "half the times between the first two positions of both",
@@ -88,11 +90,11 @@ def align(
     if method == "none":
         return Alignment(method, offset, offset)
     if method == "xcorr":
-        depths = _depth(measured, "measured", method, 3), _depth(simulated, "simulated", method, 3)
-        return _closest(*depths, offset, max_gap)
+        return _closest(_curve(measured, "measured"), _curve(simulated, "simulated"), offset, max_gap)
     first, second = _event(measured, "measured", method), _event(simulated, "simulated", method)
     shift = (first.time_ns - second.time_ns) / 10**9  # division keeps whole seconds whole
-    return Alignment(method, shift + offset, offset, 0.5 * (first.apart + second.apart))
+    apart = None if first.apart is None or second.apart is None else first.apart + second.apart
+    return Alignment(method, shift + offset, offset, None if apart is None else 0.5 * apart)
 
 
 def shifted(log: Log, shift: float) -> Log:
@@ -101,10 +103,10 @@ def shifted(log: Log, shift: float) -> Log:
 
 
 class _Event(NamedTuple):
-    """When something was first seen, UTC ns, and the time between samples there, s."""
+    """When something was first seen, UTC ns, and the time between samples there, s; None of a single sample."""
 
     time_ns: int
-    apart: float
+    apart: float | None
 
 
 def _depth(log: Log, side: str, method: Method, least: int) -> Channel:
@@ -117,11 +119,22 @@ def _depth(log: Log, side: str, method: Method, least: int) -> Channel:
     return log["depth"]
 
 
+def _curve(log: Log, side: str) -> Channel:
+    """The depth of a log for xcorr. Raises InputError where it is too short, or does not move."""
+    depth = _depth(log, side, "xcorr", 3)
+    if np.ptp(depth.values) < LEAST_RANGE:
+        raise InputError(
+            "align xcorr",
+            f"the {side} depth changes by less than {LEAST_RANGE:g} m, which tells no time; "
+            "allowed: none, start, gps, dive",
+        )
+    return depth
+
+
 def _event(log: Log, side: str, method: Method) -> _Event:
     """The event of a log that a method goes by. Raises InputError where the log has none."""
     if method == "gps":
-        known = {"latitude", "longitude"} <= log.channels.keys()
-        times = log.together("latitude", "longitude")[0] if known else np.empty(0, np.int64)
+        times = log.together("latitude", "longitude")[0]
         if not len(times):
             raise InputError("align gps", f"the {side} log has no position; allowed: none, start, dive, xcorr")
         return _seen(times, int(times[0]))
@@ -136,8 +149,10 @@ def _event(log: Log, side: str, method: Method) -> _Event:
 
 def _seen(times: NDArray[np.int64], at: int) -> _Event:
     """An event at a time, with the time between the samples about it."""
-    after = int(np.clip(np.searchsorted(times, at, side="right"), min(1, len(times) - 1), len(times) - 1))
-    return _Event(at, float(times[after] - times[max(after - 1, 0)]) * NANOSECOND)
+    if len(times) == 1:
+        return _Event(at, None)
+    after = int(np.clip(np.searchsorted(times, at, side="right"), 1, len(times) - 1))
+    return _Event(at, float(times[after] - times[after - 1]) * NANOSECOND)
 
 
 def _closest(measured: Channel, simulated: Channel, offset: float, max_gap: float) -> Alignment:

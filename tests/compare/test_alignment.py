@@ -98,6 +98,17 @@ def test_events_that_are_not_there() -> None:
         align(dive(T), flat, "dive")
 
 
+def test_what_tells_no_time() -> None:
+    flat = log(T, depth=3.0 + 0.0 * T)
+    with pytest.raises(
+        InputError, match="align xcorr: the simulated depth changes by less than 1 m, which tells no time"
+    ):
+        align(dive(T), flat, "xcorr")
+    found = align(dive(T[:1]), dive(T), "start")
+    assert found.certainty is None
+    assert "a single sample" in found.note
+
+
 def test_the_clocks_as_they_are_have_no_certainty() -> None:
     found = align(dive(T), dive(T), offset=3.0)
     assert (found.certainty, found.other, found.note) == (None, None, "")
