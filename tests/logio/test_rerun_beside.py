@@ -63,7 +63,7 @@ def test_differences_are_simulated_less_measured_at_measured_times(
         np.testing.assert_array_equal(np.isfinite(values), known, err_msg=name)
         np.testing.assert_allclose(values[known], value, atol=1e-9, err_msg=name)  # rounding of turns about 360 deg
     shown = panels(path)
-    assert "depth: SIMULATED less MEASURED, m (rms 3)" in shown
+    assert "depth: SIMULATED less MEASURED (deeper +), m (rms 3)" in shown
     assert "heading: difference, deg (rms 15)" in shown
     labels = ["SIMULATED", "MEASURED"] if turned else ["MEASURED", "SIMULATED"]
     assert f"blue: {labels[0]}, orange: {labels[1]}, grid 20 m" in shown
@@ -99,6 +99,20 @@ def test_track_is_brought_to_the_origin_of_the_first(measured: Log, simulated: L
     assert not any(entity.startswith("/difference/1/north") for entity, _ in stored(path))
 
 
+def test_tracks_an_ocean_apart_begin_at_one_place(measured: Log, simulated: Log, tmp_path: Path) -> None:
+    away = simulated.with_metadata(origin_latitude_deg="18.0", origin_longitude_deg="-112.0")
+    path = written(measured, tmp_path, beside=[away])
+    first = np.squeeze(rows(path, "/world/beside/1/vehicle", "Transform3D:translation")[2])[0]
+    np.testing.assert_allclose(first, [9.0, 9.0, 6.0], atol=1e-5)  # its own places; float32
+    # WGS-84 at 18 deg N: 105,905 m a degree of longitude, 136 deg apart across 180 deg
+    assert "began 14,403 km from MEASURED, which one scene cannot hold" in page(path)
+    assert any("FROM ONE START" in name for name in panels(path))
+    spot = np.squeeze(rows(path, "/map/beside/1/vehicle", "GeoPoints:positions")[2])[0]
+    np.testing.assert_allclose(spot, [18.0, -112.0], atol=1e-3)  # 9 m from it
+    near = simulated.with_metadata(origin_latitude_deg="18.01", origin_longitude_deg="112.02")
+    assert not any("FROM ONE START" in name for name in panels(written(measured, tmp_path, "near.rrd", beside=[near])))
+
+
 def test_logs_of_other_days_start_together(measured: Log, simulated: Log, tmp_path: Path) -> None:
     later = simulated.shifted(86400 * 10**9)
     path = written(measured, tmp_path, beside=[later])
@@ -124,8 +138,8 @@ def test_page_and_names_tell_which_is_which(measured: Log, simulated: Log, tmp_p
     assert "Computed by a model" in text
     assert "# again" not in text.splitlines()
     shown = panels(path)
-    assert "blue: MEASURED, orange: one SIMULATED, green: *two* SIMULATED, grid 20 m" in shown
-    assert "depth: difference, m (rms 3, 3)" in shown
+    assert {"tracks, grid 20 m", "blue: MEASURED, attitude", "green: *two* SIMULATED, attitude"} <= shown
+    assert "depth: difference (deeper +), m (rms 3, 3)" in shown
     assert rows(path, "/events", "TextLog:text")[2] == [["MEASURED: apogee, depth 100.0 m"]]
     assert rows(path, "/beside/2/events", "TextLog:text")[2] == [["*two* SIMULATED: apogee, depth 100.0 m"]]
 

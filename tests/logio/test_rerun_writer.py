@@ -160,7 +160,7 @@ def test_panels_without_data_are_left_out(spiral: Log, field: Log, depth_only: L
         "MEASURED attitude; generic hull, not to scale", "depth, m (negative down)", "pitch (blue), roll (orange), deg",
         "heading, deg clockwise from true north", "temperature, degC", "conductivity, S/m",  # constant: no section
         "latitude, deg", "longitude, deg",
-        "track and fixes; the map itself comes from the network", "about this recording",
+        "track and fixes; map from the network", "about this recording",
     }  # fmt: skip
     shown = panels(written(spiral, tmp_path))
     assert {

@@ -27,11 +27,15 @@ from glidercli.logio.rerun.scene import Scene
 from glidercli.logio.rerun.sea import Sea
 from glidercli.logio.rerun.settling import columns, row
 from glidercli.logio.rerun.side_by_side import Pair, Side, side_by_side
+from glidercli.places import track_of_geodetic
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
 __all__ = ["Beside"]
+
+TOO_FAR, LEAST_SIZE = 10.0, 1000.0
+"""Times the size of the larger track, of at least so many m: from there on a track is under a tenth of the picture."""
 
 
 class Beside:
@@ -47,12 +51,15 @@ class Beside:
         self._sides: list[Side] = []
         self._plots: list[Plots] = []
         self._scenes: list[Scene] = []
+        self._apart = {number: apart for number, one in enumerate(self._logs) if (apart := _too_far(log, one))}
+        """m, from the first log's origin to that of each which is drawn from its own start."""
         for number, one in enumerate(self._logs):
             colour = look.OVERLAID[number % len(look.OVERLAID)]
             place = f"/beside/{number}" if number else ""
             label, short = _labels(number, self._logs, names)
             self._plots.append(Plots(one, self._zero_ns, place, colour, short))
-            self._scenes.append(Scene(one, self._zero_ns, f"/world{place}", colour, origin(log) if number else None))
+            about = origin(log) if number and number not in self._apart else None
+            self._scenes.append(Scene(one, self._zero_ns, f"/world{place}", colour, about))
             scene = self._scenes[-1]
             self._sides.append(Side(one, label, short, place, colour, scene.vehicle, scene.has_hull))
 
@@ -95,7 +102,7 @@ class Beside:
         page = rr.TextDocument(about_several(sides, notes), media_type=rr.MediaType.MARKDOWN)
         chunks.append(row("/about", page))
         span_ns = max(one.end_ns for one in self._logs) - self._zero_ns
-        return chunks, side_by_side(self._sides, pairs, sea, zoom, span_ns, self._extents())
+        return chunks, side_by_side(self._sides, pairs, sea, zoom, span_ns, self._extents(), bool(self._apart))
 
     def _extents(self) -> dict[str, Extent]:
         """Of the values of each channel in all logs."""
@@ -120,6 +127,12 @@ class Beside:
                 chunks += still.track(rows, f"/world{side.place}", side.colour)[0]
         if len(tracks) > 1 and any(origin(one) is None for one in self._logs):
             notes.append("Not every log tells where on the globe it was: each track is drawn about its own origin.")
+        for number, apart in self._apart.items():
+            who, first = self._sides[number].short, self._sides[0].short
+            notes.append(
+                f"{who} began {apart / 1000.0:,.0f} km from {first}, which one scene cannot hold: its track is drawn "
+                "from the same start. The map has both where they were."
+            )
         return sea
 
     def _pair(self, number: int, notes: list[str], chunks: list[Chunk]) -> Pair:
@@ -149,6 +162,16 @@ class Beside:
         drawn = lines(1.5, **style) if pair.drawn_as_lines(one.name) else rr.SeriesPoints(**points)
         values = rr.Scalars.columns(scalars=one.values)
         return [row(entity, drawn), columns(entity, self._zero_ns, one.time_ns, values)]
+
+
+def _too_far(log: Log, other: Log) -> float | None:
+    """How far apart two logs' origins are, m, where a scene of both would show neither; else None."""
+    here, there = origin(log), origin(other)
+    if here is None or there is None:
+        return None
+    apart = float(np.hypot(*track_of_geodetic(*there, *here)))
+    sizes = [float(np.ptp(one[name].values)) for one in (log, other) for name in ("north", "east") if name in one]
+    return apart if apart > TOO_FAR * max([*sizes, LEAST_SIZE]) else None
 
 
 def _labels(number: int, logs: Sequence[Log], names: Sequence[str]) -> tuple[str, str]:

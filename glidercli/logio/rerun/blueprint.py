@@ -67,7 +67,7 @@ def blueprint(log: Log, shown: Shown) -> Any:
     if shown.zoom is not None:
         title = "track and fixes; map from the network"
         tabs["Map"] = [rrb.MapView(origin="/map", zoom=shown.zoom, name=title)]
-    tabs |= panels.told(log)
+    tabs |= panels.told(["/events"] if log.events else [])
     columns: list[Any] = [rrb.Vertical(*left, row_shares=[1.25, 1.0][: len(left)])] if left else []
     if flight:
         columns.append(rrb.Vertical(*flight, row_shares=[1.3, 1.0, 1.0, 1.0][: len(flight)]))

@@ -116,14 +116,14 @@ def space(title: str, origin: str, contents: Sequence[str], eye: Array, target: 
     return rrb.Spatial3DView(origin=origin, contents=[*contents], name=title, **style)
 
 
-def hull_view(title: str, vehicle: str, length: float, path: str | None = None, abreast: int = 1) -> Any:
+def hull_view(title: str, vehicle: str, length: float, path: str | None = None) -> Any:
     """The hull from its port side; the camera goes with it and turns with its heading.
 
-    path : entity of a thin line along the track. abreast : how many such panels share the width of one.
+    path : entity of a thin line along the track.
     """
     contents = [f"+ {vehicle}/**", f"- {vehicle}/marker", f"- {vehicle}/plumb"]
     contents += [f"+ {path}"] if path else []
-    eye = length * (0.3 + 0.7 * abreast) * np.array([-0.3, -1.12, -0.42])
+    eye = length * np.array([-0.3, -1.12, -0.42])
     return space(title, f"{vehicle}/course", contents, eye, np.array([0.0, 0.0, 0.04 * length]))
 
 
@@ -135,14 +135,12 @@ def events(contents: Sequence[str]) -> Any:
     return rrb.TextLogView(origin="/", contents=[*contents], name="events", columns=columns)
 
 
-def told(log: Log) -> dict[str, list[Any]]:
-    """Tabs of texts: events, and the page about the recording."""
+def told(events_of: Sequence[str]) -> dict[str, list[Any]]:
+    """The tab of texts: the page about the recording, and the events of entities."""
     import rerun.blueprint as rrb
 
-    tabs: dict[str, list[Any]] = {}
-    if log.events:
-        tabs["Events"] = [events(["/events"])]
-    return tabs | {"About": [rrb.TextDocumentView(origin="/about", name="about this recording")]}
+    page = rrb.TextDocumentView(origin="/about", name="about this recording")
+    return {"About": [page, events(events_of)] if events_of else [page]}
 
 
 def clock(log: Log, span_ns: int) -> Any:
