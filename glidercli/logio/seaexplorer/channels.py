@@ -124,8 +124,8 @@ def _fixes(time_ns: Times, used: Mapping[str, Array], warnings: list[str]) -> li
     fix = changed & (used["NavState"] == AT_SURFACE)
     if count := int(impossible.sum()):
         warnings.append(
-            f"Lat, Lon: {count} impossible values left out: beyond 90 or 180 deg, 60 minutes or more, 0 in both, or one "
-            "without the other"
+            f"Lat, Lon: {count} impossible values left out: beyond 90 or 180 deg, 60 minutes or more, 0 in both, or "
+            "one without the other"
         )
     if others := int((given & ~impossible & ~fix).sum()):
         warnings.append(f"Lat, Lon: {others} values left out that are no new fix at the surface, {int(fix.sum())} kept")
@@ -139,7 +139,7 @@ def impossible_places(table: Mapping[str, Array]) -> NDArray[np.bool_]:
     told = [np.where(np.isfinite(table[n]) & ~np.isin(table[n], SENTINELS), table[n], np.nan) for n in ("Lat", "Lon")]
     latitude, longitude = (degrees(values) for values in told)
     place = (np.abs(latitude) <= 90.0) & (np.abs(longitude) <= 180.0) & ((latitude != 0.0) | (longitude != 0.0))
-    return np.isfinite(told).any(axis=0) & ~place
+    return np.asarray(np.isfinite(told).any(axis=0) & ~place)
 
 
 def near_of(time_ns: Times, table: Mapping[str, Array]) -> Whereabouts | None:
