@@ -110,7 +110,9 @@ def read(
     if not own:
         if of_pressure is not None and (doubt := doubt_about_gauges(log)):
             told = reports[of_pressure]
-            reports[of_pressure] = dataclasses.replace(told, warnings=(*told.warnings, doubt))
+            reports[of_pressure] = dataclasses.replace(
+                told, warnings=(doubt, *told.warnings)
+            )  # first: a list is shown in part
         log = with_derived(log, near)
     if "platform" not in log.metadata:
         nameless = ()

@@ -84,7 +84,9 @@ def test_a_netcdf_file_that_says_bar(tmp_path: Path) -> None:
     assert doubts(read([path])) == []
     with netCDF4.Dataset(path, "a") as file:
         file["pressure"].units = "bar"
-    (line,) = doubts(read([path]))
+    reading = read([path])
+    (line,) = doubts(reading)
+    assert reading.files[0].warnings[0] == line  # `glider info` shows the first three alone
     assert "is 10.1 dbar of pressure" in line
     assert "pressure in dbar that is called bar" in line
 

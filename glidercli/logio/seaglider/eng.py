@@ -85,7 +85,7 @@ def _beside(path: Path, dive: Dive, start_ns: int, gathering: Gathering) -> tupl
             raise InputError(beside, f"is of {text.dive.name or 'an unknown dive'}, this is {dive.name or 'unknown'}")
         part = read_log(beside, data)
         gathering.beside.append(beside)
-        gathering.warnings += other_start(start_ns, text.start_ns, beside.name)
+        gathering.warnings[:0] = other_start(start_ns, text.start_ns, beside.name)
         if fault := part.report.error if whole else DAMAGED:
             gathering.warnings.append(f"{beside.name} beside it: {fault}")
         return declination_of(text.lines), part.log

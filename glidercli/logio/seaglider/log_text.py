@@ -73,7 +73,7 @@ def read_log(path: Path, data: bytes) -> Part:
     _fixes([fields for key, fields in lines if key in FIXES], gathering)
     before, after = (max((_fix_ns(f) for key, f in lines if key == name), default=NO_TIME) for name in FIXES[1:])
     last = max([*states.time_ns.tolist(), *events_ns.tolist()], default=NO_TIME)
-    gathering.warnings += doubts_about_start(text.start_ns, before, after, last)
+    gathering.warnings[:0] = doubts_about_start(text.start_ns, before, after, last)  # first: a list is shown in part
     return gathering.part(path, text.dive, ("log",), yields=frozenset({"depth"}), error=CUT if cut else None)
 
 
