@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from glidercli.log import Channel, Event, Log, Origin
 from glidercli.logio.alike import alike, with_note
+from glidercli.logio.consistent import with_agreeing_fixes
 from glidercli.logio.cut_text import CUT
 from glidercli.logio.derived.closure import closures_in
 from glidercli.logio.derived.motion import with_phase
@@ -35,7 +36,8 @@ def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]
     """One Log of what several files gave, and their reports with what joining dropped.
 
     ``parts`` is emptied, so that what has been joined need not be in memory twice. A dive without a recorded phase has
-    it from depth beside dives that have one; not where all files are this program's ``own``.
+    it from depth beside dives that have one, and fixes that all others rule out are left out (consistent.py); not where
+    all files are this program's ``own``.
 
     Raises InputError where the files cannot be of one flight (alike.py).
     """
@@ -61,18 +63,26 @@ def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]
     holders.clear()
     fullest.clear()
     reached: dict[str, int] = {}
-    kept: list[Log] = []
     apart = [group for dive in dives.values() for group in _apart(dive)]
     dives.clear()
     ordered = deque(sorted(apart, key=lambda files: min(part.log.start_ns for part in files)))
     apart.clear()
+    left: deque[list[Part]] = deque()
     while ordered:
-        dive = ordered.popleft()
-        dive = [_after(part, reached) for part in _without_yielded(dive)]
-        log = _interleaved([part.log for part in dive if part.log.channels])
+        dive = [_after(part, reached) for part in _without_yielded(ordered.popleft())]
+        for name, end_ns in [(n, int(c.time_ns[-1])) for part in dive for n, c in part.log.channels.items()]:
+            reached[name] = max(end_ns, reached.get(name, end_ns))
+        left.append(dive)
+    if not own:
+        agreeing = iter(with_agreeing_fixes([part for dive in left for part in dive]))
+        left = deque([next(agreeing) for _ in dive] for dive in left)
+        del agreeing
+    kept: list[Log] = []
+    while left:
+        dive = left.popleft()
         reports |= {part.report.path: part.report for part in dive}
+        log = _interleaved([part.log for part in dive if part.log.channels])
         if log is not None:
-            reached |= {name: int(channel.time_ns[-1]) for name, channel in log.channels.items()}
             kept.append(log)
     if not own and any("phase" in log for log in kept):
         kept = [with_phase(log) for log in kept]

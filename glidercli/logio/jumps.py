@@ -5,11 +5,12 @@ One rule for the fixes of all families. A glider at the surface drifts with the 
 makes less than 1 m/s of its own, in weaker currents. So two fixes that lie further apart than 3 m/s times the time
 between, and 50 m more, cannot both be right. The 50 m are the errors of both:
 GPS is within 15 m in 95 % of cases at the worst site (GPS Standard Positioning Service Performance Standard, 5th ed.,
-2020), and an antenna that is awash does worse. Fixes of different dives are hours apart, and hardly ever disagree.
+2020), and an antenna that is awash does worse. All fixes of a log are judged as one way, whatever files they stand in:
+a stale one at the end of a file is shown by those of the next.
 
 The most fixes that agree, each with the next, are kept; of several such choices that with the smoothest way. Where
-these are not more than half of all, the vehicle may have been carried (01600001.dbd of dbdreader drives at 17 m/s), or
-two receivers disagree: then nothing tells what is wrong, and all are kept.
+these are not more than half of the log's, the vehicle may have been carried (01600001.dbd of dbdreader drives at 17
+m/s), or two receivers disagree: then nothing tells what is wrong, and all are kept.
 
 A depth spike leaves the samples before it by more than 3 m/s and 2 m and comes back by such a step within five samples.
 Gliders sink and rise at tenths of a metre per second, which leaves room for one that falls or shoots up; 2 m are noise
@@ -50,12 +51,24 @@ def agreeing(time_ns: Times, latitude: Array, longitude: Array) -> Mask:
     time_ns : (n,), UTC ns, strictly increasing. latitude, longitude : (n,), deg.
     """
     time, place = np.asarray(time_ns * 1e-9, np.float64), _on_sphere(latitude, longitude)
-    if (_apart(place[1:], place[:-1]) <= CIRCLE + DRIFT * np.diff(time)).all():
+    steps, pauses = _apart(place[1:], place[:-1]), np.diff(time)
+    breaks = np.flatnonzero(steps > CIRCLE + DRIFT * pauses)
+    if not len(breaks):
         return np.ones(len(time), dtype=bool)
+    strains = steps**2 / pauses
     length, cost, before = np.ones(len(time), dtype=int), np.zeros(len(time)), np.full(len(time), -1)
-    longest, alone = 0, False  # of the chains so far, and whether one fix alone ends such
-    for j in range(len(time)):
-        first = j - 1 if alone and length[j - 1] == longest else max(0, j - BACK)
+    longest, alone = 1, True  # of the chains so far, and whether one fix alone ends such
+    j = 1
+    while j < len(time):
+        best = alone and length[j - 1] == longest
+        if best and (end := int(np.append(breaks, len(time) - 1)[np.searchsorted(breaks, j - 1)]) + 1) > j:
+            # the one longest chain goes on, fix by fix, to the next break
+            length[j:end] = longest + np.arange(1, end - j + 1)
+            cost[j:end] = np.cumsum(np.append(cost[j - 1], strains[j - 1 : end - 1]))[1:]
+            before[j:end] = np.arange(j - 1, end - 1)
+            longest, j = int(length[end - 1]), end
+            continue
+        first = j - 1 if best else max(0, j - BACK)
         i = _link(time, place, length, cost, first, j)
         if i is None and first:
             first = max(0, j - BACK)
@@ -64,6 +77,7 @@ def agreeing(time_ns: Times, latitude: Array, longitude: Array) -> Mask:
             before[j], length[j], cost[j] = i, length[i] + 1, cost[i] + _strain(time, place, i, j)[0]
         alone = length[j] > longest or (alone and length[j] < longest)
         longest = max(longest, int(length[j]))
+        j += 1
     ends = np.flatnonzero(length == longest)
     kept = np.zeros(len(time), dtype=bool)
     i = int(ends[cost[ends].argmin()])

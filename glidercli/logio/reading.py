@@ -14,6 +14,7 @@ from glidercli.logio.companions import is_companion
 from glidercli.logio.derived import with_derived
 from glidercli.logio.finding import found_in, natural
 from glidercli.logio.formats import FORMATS, check_format
+from glidercli.logio.gauges import doubt_about_gauges
 from glidercli.logio.joining import joined
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport, all_dropped
@@ -103,9 +104,15 @@ def read(
     own = all(FORMATS[part.report.format].own for part in parts if part.report.format)
     nameless = tuple(part.report.path.name for part in parts if not vehicle_of(part))
     near = joined_whereabouts([part.near for part in parts])
+    of_pressure = next((part.report.path for part in parts if "pressure" in part.log), None)
     log, whole = joined(parts, own)
     reports |= {report.path: report for report in whole}
     if not own:
+        if of_pressure is not None and (doubt := doubt_about_gauges(log)):
+            told = reports[of_pressure]
+            reports[of_pressure] = dataclasses.replace(
+                told, warnings=(doubt, *told.warnings)
+            )  # first: a list is shown in part
         log = with_derived(log, near)
     if "platform" not in log.metadata:
         nameless = ()

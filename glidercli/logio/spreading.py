@@ -10,7 +10,7 @@ from pathlib import Path
 
 from glidercli.errors import GliderError, InputError
 from glidercli.files import readable_file
-from glidercli.logio.consistent import consistent
+from glidercli.logio.consistent import without_spikes
 from glidercli.logio.formats import FORMATS, recognised
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import OUT_OF_ORDER
@@ -87,7 +87,7 @@ def read_one(path: Path, format: str | None, aids: Aids) -> Part | FileReport:
     except OSError as error:
         return FileReport(path, name, 0, 0, error=f"cannot be read: {error.strerror or error}")
     if any(map(len, part.log.channels.values())):
-        part = part if FORMATS[name].own else consistent(part)
+        part = part if FORMATS[name].own else without_spikes(part)
         return dataclasses.replace(part, report=_doubted(part.report))
     why = ", ".join(f"{count} {reason}" for reason, count in part.report.dropped)
     return dataclasses.replace(part.report, error=part.report.error or "no usable record" + (f": {why}" if why else ""))

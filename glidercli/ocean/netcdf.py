@@ -20,6 +20,7 @@ from glidercli.errors import InputError
 from glidercli.files import readable_file
 from glidercli.named_units import conversion_to, names_of
 from glidercli.netcdf_opening import dataset
+from glidercli.netcdf_packing import packing_of
 from glidercli.ocean.source import listed
 from glidercli.units import DBAR
 from glidercli.years import FIRST_SECOND, LAST_SECOND
@@ -195,11 +196,23 @@ class NcFile:
         )  # beyond are marks of gaps
 
     def numbers(self, variable: Any) -> Any:
-        """The values of a variable as they stand, masked where the file has none; InputError where too many."""
+        """The values of a variable, unpacked and masked where the file has none.
+
+        Raises InputError where they are too many, or where what they are packed by is no number.
+        """
         size = math.prod(variable.shape)
         if size > MOST_VALUES:
             raise InputError(self.path, f"{variable.name} has {size:.2g} values, allowed are {MOST_VALUES:.0e}")
-        return variable[...]
+        try:
+            packing = packing_of({name: variable.getncattr(name) for name in variable.ncattrs()})
+        except ValueError as fault:
+            raise InputError(self.path, f"{variable.name}: {fault}") from None
+        if not packing.notes:
+            return variable[...]
+        for note in packing.notes:
+            self._remark(f"{variable.name}: {note}")
+        variable.set_auto_scale(False)  # the library unpacks by numbers alone
+        return variable[...] * packing.factor + packing.offset
 
     def _factor(self, variable: Any, quantity: str) -> tuple[float, float]:
         told = QUANTITIES[quantity]

@@ -47,6 +47,7 @@ class GoodFile:
 
     text : its records are lines. guarded : checksums guard all samples. beside : files that it needs. read_instead : the
     file that is read, where the damaged one only stands beside it. water : "ctd" or "adcp" for files of profiles.
+    times : at most so many times have samples of one record. origin : how the line begins that all times count from.
     """
 
     path: Path
@@ -55,6 +56,8 @@ class GoodFile:
     beside: tuple[Path, ...] = ()
     read_instead: Path | None = None
     water: str = ""
+    times: int = 1
+    origin: bytes = b""
 
     @functools.cached_property
     def target(self) -> Path:
@@ -124,8 +127,9 @@ def good_files() -> tuple[GoodFile, ...]:
             read_instead=SLOCUM / "comet-2019-218-00-032.sbd",
         ),
         GoodFile(SLOCUM / "comet-2016-174-05-000.ebd", beside=(SLOCUM / "9e3250d8.cac",)),
-        GoodFile(SEAGLIDER / "p5610003.eng", text=True),
-        GoodFile(SEAGLIDER / "p5610003.log", text=True),
+        GoodFile(SEAGLIDER / "p5610003.eng", text=True, origin=b"%start:"),
+        # $GC has samples where it starts, and where each of three motors stops
+        GoodFile(SEAGLIDER / "p5610003.log", text=True, times=4, origin=b"start:"),
         GoodFile(SEAGLIDER / "p5610003.nc"),
         GoodFile(ROOT / "tests/data/netcdf/sg033_20100903T182416_first-rows.nc"),
         GoodFile(ROOT / "tests/data/netcdf/dfo-rosie713-20190615_adjusted.nc"),

@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 
 from glidercli.log import Channel, Log
 from glidercli.logio import read
-from glidercli.logio.consistent import consistent
+from glidercli.logio.consistent import with_agreeing_fixes, without_spikes
 from glidercli.logio.derived.motion import with_motion
 from glidercli.logio.derived.track import with_track
 from glidercli.logio.formats import read_file
+from glidercli.logio.joining import joined
 from glidercli.logio.jumps import CIRCLE, DRIFT, agreeing, spikes
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport
@@ -119,7 +120,7 @@ def fixes_of(seconds: list[float], metres: list[float]) -> list[Channel]:
 def test_a_record_of_a_left_out_fix_alone_is_dropped_by_name() -> None:
     fixes = fixes_of([0, 20, 40, 60, 80], [0, 900, 10, 15, 900])
     depth = Channel("depth", fixes[0].time_ns[3:], np.zeros(2))
-    part = consistent(part_of([*fixes, depth]))
+    (part,) = with_agreeing_fixes([part_of([*fixes, depth])])
     assert part.report.dropped == (("fix too far from the others for its time", 1),)  # the other one told its depth
     assert (part.report.kept, len(part.record_ns)) == (4, 4)
     assert len(part.log["latitude"]) == 3
@@ -127,15 +128,66 @@ def test_a_record_of_a_left_out_fix_alone_is_dropped_by_name() -> None:
 
 @pytest.mark.parametrize("metres", [[0.0, 900.0], [9000.0 * i for i in range(8)]])
 def test_where_most_disagree_all_stay_and_it_is_said(metres: list[float]) -> None:
-    part = consistent(part_of(fixes_of([20.0 * i for i in range(len(metres))], metres)))
+    (part,) = with_agreeing_fixes([part_of(fixes_of([20.0 * i for i in range(len(metres))], metres))])
     assert len(part.log["latitude"]) == len(metres)
     assert "all are kept" in part.report.warnings[0]
+
+
+def file_of(name: str, seconds: list[float], metres: list[float]) -> Part:
+    part = part_of(fixes_of(seconds, metres))
+    return dataclasses.replace(part, report=dataclasses.replace(part.report, path=Path(name)), dive=name)
+
+
+def accounted(reports: list[FileReport]) -> bool:
+    return all(r.records == r.kept + sum(count for _, count in r.dropped) for r in reports)
+
+
+def test_a_boat_that_carries_it_over_two_files_is_judged_as_one_way() -> None:
+    """17 m/s from within the first file on: file by file the first would lose 24 fixes, and the second keep all."""
+    drift, boat = [0.3 * 10 * i for i in range(40)], [117.0 + 170.0 * i for i in range(1, 101)]
+    seconds = [10.0 * i for i in range(140)]
+    first = file_of("a", seconds[:64], [*drift, *boat[:24]])
+    second = file_of("b", seconds[64:], boat[24:])
+    assert [len(part.log["latitude"]) for one in (first, second) for part in with_agreeing_fixes([one])] == [40, 76]
+    log, reports = joined([first, second])
+    assert len(log["latitude"]) == 140
+    assert accounted(reports)
+    assert [report.kept for report in reports] == [64, 76]
+    (note,) = [warning for report in reports for warning in report.warnings]
+    assert note.startswith("GPS: 140 fixes of 2 files, half or more too far from one another")
+
+
+def test_a_file_of_two_fixes_is_judged_by_the_files_beside_it() -> None:
+    """Alone nothing tells which of the two is wrong."""
+    first = file_of("a", [0, 20], [0, 900])
+    second = file_of("b", [60, 80, 100], [18, 24, 30])
+    (alone,) = with_agreeing_fixes([first])
+    assert len(alone.log["latitude"]) == 2
+    log, reports = joined([first, second])
+    assert (log["latitude"].time_ns // SECOND).tolist() == [0, 60, 80, 100]
+    assert accounted(reports)
+    assert reports[0].dropped == (("fix too far from the others for its time", 1),)
+    assert [report.kept for report in reports] == [1, 3]
+
+
+def test_two_files_may_tell_the_same_fix() -> None:
+    first, second = file_of("a", [0, 20, 40], [0, 6, 12]), file_of("b", [0, 20, 40], [0, 900, 12])
+    left = with_agreeing_fixes([first, second])
+    assert [len(part.log["latitude"]) for part in left] == [3, 3]
+    assert [part.report.warnings for part in left] == [(), ()]
+
+
+def test_fixes_of_files_of_this_program_stay() -> None:
+    log, reports = joined([file_of("a", [0, 20, 40, 60], [0, 900, 12, 18])], own=True)
+    assert len(log["latitude"]) == 4
+    assert reports[0].warnings == ()
 
 
 def test_what_was_simulated_stays() -> None:
     part = part_of(fixes_of([0, 20, 40, 60], [0, 900, 10, 15]))
     part = dataclasses.replace(part, log=dataclasses.replace(part.log, origin="simulated"))
-    assert consistent(part) is part
+    assert with_agreeing_fixes([part]) == [part]
+    assert without_spikes(part) is part
 
 
 def test_many_fixes_take_no_time() -> None:
@@ -174,7 +226,7 @@ def test_spikes_of_depth_and_pressure_are_left_out_and_no_speed_comes_of_them(ro
     depth = depth + 60.0
     depth[rows] += by
     for name, metre in (("depth", 1.0), ("pressure", 1e4)):
-        part = consistent(part_of([Channel(name, time_ns, depth * metre)]))
+        part = without_spikes(part_of([Channel(name, time_ns, depth * metre)]))
         assert len(part.log[name]) == 200 - len(rows)
         assert part.report.dropped == (("spike", len(rows)),)
         assert (
@@ -212,7 +264,7 @@ def test_spikes_beside_one_another_on_either_side_are_left_out() -> None:
 def test_two_sensors_that_take_turns_both_stay_and_it_is_said() -> None:
     time_ns, depth = dive()
     depth[::2] += 100.0
-    part = consistent(part_of([Channel("depth", time_ns, depth)]))
+    part = without_spikes(part_of([Channel("depth", time_ns, depth)]))
     assert len(part.log["depth"]) == 200
     assert "all are kept" in part.report.warnings[0]
 

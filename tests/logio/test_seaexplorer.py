@@ -107,7 +107,39 @@ def test_a_position_of_60_minutes_is_none(tmp_path: Path) -> None:
     rows = [f"21/07/2019 10:0{i}:00;116;90.0;16;0;0;2.0;{lat};-13036.200;0;70;0;" for i, lat in enumerate(places)]
     log, report = read_one(write(tmp_path, *rows))
     assert log["latitude"].values.tolist() == [pytest.approx(48 + 54.6 / 60), pytest.approx(48 + 54.8 / 60)]
+    assert "Lat, Lon: 1 values left out that are no new fix at the surface, 2 kept" in report.warnings
+    assert f"Lat, Lon: 1 {IMPOSSIBLE}" in report.warnings
+
+
+IMPOSSIBLE = "impossible values left out: beyond 90 or 180 deg, 60 minutes or more, 0 in both, or one without the other"
+
+
+@pytest.mark.parametrize(
+    "place",
+    ["9999;-13036.2", "4854.5;-9999", "9100.0;-13036.2", "4854.5;18100.0", "4861.0;-13036.2", "4854.5;-13060.0", "0;0",
+     "4854.5;", "4854.5;abc"],
+)  # fmt: skip
+def test_impossible_positions_are_counted_as_such(tmp_path: Path, place: str) -> None:
+    """Beside other values in the warnings, alone as a record that is dropped; a position that stands still is neither."""
+    good = [f"21/07/2019 10:0{i}:00;116;90.0;16;0;0;2.0;485{i}.5;-13036.2;0;70;0;" for i in range(3)]
+    still = "21/07/2019 10:03:00;116;;;;;;4852.5;-13036.2;;;;"
+    beside = [f"21/07/2019 10:0{i}:00;116;90.0;16;0;0;2.0;{place};0;70;0;" for i in (4, 5)]
+    alone = [f"21/07/2019 10:0{i}:00;;;;;;;{place};;;;" for i in (6, 7, 8)]
+    log, report = read_one(write(tmp_path, *good, still, *beside, *alone))
+    assert log["latitude"].values.tolist() == [pytest.approx(48 + minutes / 60) for minutes in (51.5, 52.5)]
+    assert (report.records, report.kept) == (9, 6)
+    if place == "0;0":
+        assert report.dropped == (("all values zero", 3),)
+        assert f"Lat, Lon: 2 {IMPOSSIBLE}" in report.warnings
+    else:
+        assert report.dropped == (("impossible value: no such position", 3),)
+        assert f"Lat, Lon: 5 {IMPOSSIBLE}" in report.warnings
     assert "Lat, Lon: 2 values left out that are no new fix at the surface, 2 kept" in report.warnings
+
+
+def test_a_possible_position_alone_that_is_no_fix_is_dropped_under_another_reason(tmp_path: Path) -> None:
+    _, report = read_one(write(tmp_path, *GOOD, "21/07/2019 10:06:00;;;;;;;4854.5;-13036.2;;;;"))
+    assert report.dropped == (("no usable value", 1),)
 
 
 def test_only_changed_positions_at_the_surface_are_fixes(tmp_path: Path) -> None:
@@ -207,7 +239,10 @@ def test_no_position_is_no_fix_and_a_blank_makes_none(tmp_path: Path) -> None:
     rows = [f"21/07/2019 10:0{i}:00;116;90.0;16;0;0;2.0;{place};0;70;0;" for i, place in enumerate(places)]
     log, report = read_one(write(tmp_path, *rows))
     assert log["latitude"].values.tolist() == [pytest.approx(48 + 54.7 / 60)]
-    assert report.warnings == ("Lat, Lon: 4 values left out that are no new fix at the surface, 1 kept",)
+    assert report.warnings == (
+        f"Lat, Lon: 1 {IMPOSSIBLE}",
+        "Lat, Lon: 3 values left out that are no new fix at the surface, 1 kept",
+    )
 
 
 PAYLOAD = "PLD_REALTIMECLOCK;NAV_DEPTH;GPCTD_CONDUCTIVITY;GPCTD_TEMPERATURE;GPCTD_PRESSURE;"

@@ -23,8 +23,9 @@ from glidercli.errors import InputError
 from glidercli.log import Event
 from glidercli.logio.netcdf.pyglider import is_pyglider, read_with_attitude
 from glidercli.logio.netcdf.times import times_of
-from glidercli.logio.netcdf.trajectory import Positions, Rows, near_of, part_of, unread_in
+from glidercli.logio.netcdf.trajectory import Positions, Rows, faults_in, near_of, part_of, unread_in
 from glidercli.logio.netcdf.variables import attributes, flags_of, text_of, values_of
+from glidercli.logio.netcdf.vocabulary import STANDARD_NAMES
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import NO_TIME
 from glidercli.netcdf_opening import holds, opened, rows_of
@@ -74,7 +75,8 @@ def read_ioos(path: Path, aids: Aids = Aids()) -> Part:
         near = next((place for pair in PLACES if (place := near_of(file, time_ns, pair)) is not None), None)
         near = near or near_of(file, time_ns[:1], MIDDLE)
         unread = unread_in(file, DIMENSION, found)
-        rows = Rows(time_ns, found, positions, metadata, warnings, _current(path, file), near, unread)
+        faults = faults_in(file, DIMENSION, NAMES, STANDARD_NAMES)
+        rows = Rows(time_ns, found, positions, metadata, warnings, _current(path, file), near, unread, faults)
         profile = _profile(file)
     trajectory = metadata.get("trajectory", "")
     return part_of(path, "ioos", rows, (f"ioos.{trajectory}.{profile}",) if trajectory and profile else ())

@@ -26,8 +26,9 @@ from glidercli.errors import InputError
 from glidercli.logio.netcdf.pyglider import read_with_attitude
 from glidercli.logio.netcdf.seaglider_controls import CONTROL_NAMES, controls
 from glidercli.logio.netcdf.times import times_of
-from glidercli.logio.netcdf.trajectory import Positions, Rows, near_of, part_of, unread_in
+from glidercli.logio.netcdf.trajectory import Positions, Rows, faults_in, near_of, part_of, unread_in
 from glidercli.logio.netcdf.variables import Values, attributes, text_of, values_of
+from glidercli.logio.netcdf.vocabulary import STANDARD_NAMES
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import NO_TIME
 from glidercli.netcdf_opening import holds, opened, rows_of
@@ -78,7 +79,9 @@ def read_og1(path: Path, aids: Aids = Aids()) -> Part:
         time_ns = times_of(path, file["TIME"])
         near = near_of(file, time_ns, ("LATITUDE", "LONGITUDE"))
         unread = unread_in(file, DIMENSION, found)
-        rows = Rows(time_ns, found, _positions(path, file, warnings), metadata, warnings, near=near, unread=unread)
+        faults = faults_in(file, DIMENSION, NAMES, STANDARD_NAMES)
+        positions = _positions(path, file, warnings)
+        rows = Rows(time_ns, found, positions, metadata, warnings, near=near, unread=unread, faults=faults)
         trajectory = text_of(file, "TRAJECTORY")
     return part_of(path, "og1", rows, (f"og1.{trajectory}",) if trajectory else ())
 

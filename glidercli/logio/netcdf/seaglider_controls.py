@@ -16,6 +16,7 @@ import numpy as np
 
 from glidercli.logio.netcdf.variables import Values, attributes, stored_numbers
 from glidercli.logio.seaglider.columns import CONTROLS, NOTES
+from glidercli.netcdf_packing import packing_of
 
 __all__ = ["CONTROL_NAMES", "controls"]
 
@@ -40,7 +41,12 @@ def controls(file: Any, dimension: str, model: str, metadata: dict[str, str], wa
         name = next((n for n in names if n in file.variables and file[n].dimensions == (dimension,)), None)
         if name is None:
             continue
-        quantity, values = CONTROLS[column], stored_numbers(file[name])
+        try:
+            packing = packing_of(attributes(file[name]))
+        except ValueError as fault:
+            warnings.append(f"{name}: left out, {fault}")
+            continue
+        quantity, values = CONTROLS[column], stored_numbers(file[name], packing)
         told = str(attributes(file[name]).get("units", "")).strip()
         whole = bool((values[np.isfinite(values)] % 1.0 == 0.0).all())
         if not name.startswith("eng_") and "seaglider" not in model.lower():
@@ -53,6 +59,7 @@ def controls(file: Any, dimension: str, model: str, metadata: dict[str, str], wa
             if told in ("", COUNTS):
                 says = f"says {told}, which its fractions are not" if told else "no unit is told"
                 warnings.append(f"{name}: {says}; taken as the {quantity.unit} of a Seaglider's {column}")
+            warnings += [f"{name}: {note}" for note in packing.notes]
             found[quantity.channel] = Values(name, quantity.factor * values, "measured")
             if quantity.channel in NOTED:
                 metadata[NOTED[quantity.channel]] = NOTES[NOTED[quantity.channel]]

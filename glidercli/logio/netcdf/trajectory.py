@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from glidercli.log import Channel, Event, Log
 from glidercli.logio.netcdf.fixes import fixes
-from glidercli.logio.netcdf.variables import BAD_PLACE, COMPUTED, Values, attributes, values_of
+from glidercli.logio.netcdf.variables import BAD_PLACE, COMPUTED, Values, attributes, fault_of, values_of
 from glidercli.logio.plausible import quantity_of
 from glidercli.logio.quantities import channel_of, submerged
 from glidercli.logio.reader import Part
@@ -21,7 +21,7 @@ from glidercli.logio.records import sampled, usable
 from glidercli.logio.report import FileReport
 from glidercli.logio.whereabouts import Whereabouts, whereabouts
 
-__all__ = ["Positions", "Rows", "found_in", "near_of", "part_of", "unread_in"]
+__all__ = ["Positions", "Rows", "faults_in", "found_in", "near_of", "part_of", "unread_in"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -50,7 +50,7 @@ class Positions:
 class Rows:
     """The rows of a file: their times, values by channel, positions, and what else is told of them.
 
-    near : positions that are no fixes, for absolute salinity alone.
+    near : positions that are no fixes, for absolute salinity alone. faults : variables that cannot be read, and why.
     """
 
     time_ns: Times
@@ -61,6 +61,7 @@ class Rows:
     events: tuple[Event, ...] = ()
     near: Whereabouts | None = None
     unread: tuple[str, ...] = ()
+    faults: tuple[str, ...] = ()
 
 
 def found_in(
@@ -76,12 +77,7 @@ def found_in(
     names : variable names by channel, the first that is there is taken. standard : channel by standard name.
     besides : variables that the reader reads itself.
     """
-    along = _along(file, dimension)
-    chosen = {channel: next((n for n in known if n in along), None) for channel, known in names.items()}
-    for name, told in along.items():
-        channel = standard.get(str(told.get("standard_name", "")))
-        if channel is not None and chosen.get(channel) is None and name not in chosen.values():
-            chosen[channel] = name
+    along, chosen = _along(file, dimension), _chosen(file, dimension, names, standard)
     found = {}
     for channel, variable in chosen.items():
         values = None if variable is None else values_of(file, variable, channel, warnings)
@@ -92,6 +88,28 @@ def found_in(
     if other:
         warnings.append(f"variables not known and not used: {', '.join(other)}")
     return found
+
+
+def faults_in(
+    file: Any, dimension: str, names: Mapping[str, Sequence[str]], standard: Mapping[str, str]
+) -> tuple[str, ...]:
+    """Which variables ``found_in`` leaves out for their unit or packing, each with what is wrong and what is needed."""
+    chosen = _chosen(file, dimension, names, standard)
+    told = {c: (name, fault_of(attributes(file[name]), c)) for c, name in chosen.items() if name is not None}
+    return tuple(f"{name}: {fault}" for name, fault in told.values() if fault)
+
+
+def _chosen(
+    file: Any, dimension: str, names: Mapping[str, Sequence[str]], standard: Mapping[str, str]
+) -> dict[str, str | None]:
+    """The variable along a dimension that each channel is taken from, by name, else by standard name."""
+    along = _along(file, dimension)
+    chosen = {channel: next((n for n in known if n in along), None) for channel, known in names.items()}
+    for name, told in along.items():
+        channel = standard.get(str(told.get("standard_name", "")))
+        if channel is not None and chosen.get(channel) is None and name not in chosen.values():
+            chosen[channel] = name
+    return chosen
 
 
 def unread_in(file: Any, dimension: str, found: Mapping[str, Values]) -> tuple[str, ...]:
@@ -173,7 +191,8 @@ def part_of(path: Path, format: str, rows: Rows, holds: tuple[str, ...] = ()) ->
         kept[at] = True
     log = Log({n: c for n, c in channels.items() if len(c)}, "measured", dict(rows.metadata), rows.events)
     reasons = tuple(sorted((reason, count) for reason, count in dropped.items() if count))
-    report = FileReport(path, format, len(rows.time_ns), int(kept.sum()), reasons, tuple(warnings))
+    error = f"no usable record: {'; '.join(rows.faults)}" if rows.faults and not kept.any() else None
+    report = FileReport(path, format, len(rows.time_ns), int(kept.sum()), reasons, tuple(warnings), error)
     near, unread = rows.near, rows.unread
     return Part(log, report, np.sort(record_ns[kept]), holds=holds, fullness=int(kept.sum()), near=near, unread=unread)
 

@@ -15,8 +15,11 @@ from numpy.typing import NDArray
 
 from glidercli.log import Origin
 from glidercli.named_units import conversion, units_of
+from glidercli.netcdf_packing import Packing, packing_of
 
-__all__ = ["BAD_PLACE", "COMPUTED", "Values", "attributes", "flags_of", "stored_numbers", "text_of", "values_of"]
+__all__ = [
+    "BAD_PLACE", "COMPUTED", "Values", "attributes", "fault_of", "flags_of", "stored_numbers", "text_of", "values_of",
+]  # fmt: skip
 
 Array = NDArray[np.float64]
 
@@ -24,7 +27,10 @@ BAD = {3: "probably bad", 4: "bad", 6: "unused flag", 7: "unused flag", 8: "inte
 BAD_PLACE = {flag: meaning for flag, meaning in BAD.items() if flag != 8}
 """Of a position that need not be a fix."""
 CHANGED = 5
-DEGREES = ("latitude", "longitude")
+UNITLESS = {"latitude": "degrees", "longitude": "degrees", "salinity": "1"}
+"""Units that need not be told. Of places CF knows none but degrees (sections 4.1 and 4.2), and practical salinity has
+no dimension, which needs no unit (3.1). Of all others several are in use: a temperature may be in degC or K, a
+conductivity in S/m or mS/cm, a pitch in deg or rad."""
 LARGEST = 1e200
 """Larger numbers are impossible for any channel, and products with them stay numbers."""
 LONGEST_TEXT = 4096
@@ -77,23 +83,41 @@ def flags_of(file: Any, name: str) -> NDArray[np.int64] | None:
     return np.where((numbers >= 0) & (numbers <= 9), numbers, -1).astype(np.int64)
 
 
+def fault_of(told: Mapping[str, Any], channel: str) -> str:
+    """Why a variable with these attributes cannot be read as a channel, and what is needed; "" where it can."""
+    unit = _unit(told, channel)
+    if conversion(unit, channel) is None:
+        says = f"the unit {unit!r} is not known for {channel}" if unit else f"no unit is told for {channel}"
+        return f"{says}; known are {', '.join(units_of(channel))}"
+    try:
+        packing_of(told)
+    except ValueError as fault:
+        return str(fault)
+    return ""
+
+
+def _unit(told: Mapping[str, Any], channel: str) -> str:
+    return str(told.get("units", "")).strip() or UNITLESS.get(channel, "")
+
+
 def values_of(file: Any, name: str, channel: str, warnings: list[str], bad: Mapping[int, str] = BAD) -> Values | None:
-    """The values of a variable as a channel; None, with a warning, where its unit is not known.
+    """The values of a variable as a channel; None, with a warning, where its unit or its packing is not known.
 
     What is left out, apart from blanks, is counted in a warning. bad : flags of what is left out, and their meanings.
-    A latitude or longitude without a unit is in degrees: CF knows none but degrees for them (sections 4.1 and 4.2).
+    A unit that need not be told (UNITLESS) is taken, with a warning.
     """
     variable = file[name]
     told = attributes(variable)
-    unit = str(told.get("units", "")).strip()
-    if not unit and channel in DEGREES:
-        unit = "degrees"
-        warnings.append(f"{name}: no unit is told, taken as degrees of {channel}")
+    unit, fault = _unit(told, channel), fault_of(told, channel)
     to_si = conversion(unit, channel)
-    if to_si is None:
-        says = f"the unit {unit!r} is not known for {channel}" if unit else f"no unit is told for {channel}"
-        warnings.append(f"{name}: left out, {says}; known are {', '.join(units_of(channel))}")
+    if to_si is None or fault:
+        warnings.append(f"{name}: left out, {fault}")
         return None
+    if not str(told.get("units", "")).strip():
+        taken = "practical salinity, which has none" if channel == "salinity" else f"{unit} of {channel}"
+        warnings.append(f"{name}: no unit is told, taken as {taken}")
+    packing = packing_of(told)
+    warnings += [f"{name}: {note}" for note in packing.notes]
     stored = np.atleast_1d(variable[...])
     good = ~np.isnan(stored)
     good &= ~_counted(name, np.isinf(stored), "infinite left out", warnings)
@@ -107,20 +131,20 @@ def values_of(file: Any, name: str, channel: str, warnings: list[str], bad: Mapp
             good &= ~_counted(name, good & (flags == flag), why, warnings)
         _counted(name, good & (flags == CHANGED), f"flagged {CHANGED} (changed by its publisher) kept", warnings)
     bounded = np.clip(stored.astype(np.float64), -LARGEST, LARGEST)
-    values = bounded * float(told.get("scale_factor", 1.0)) + float(told.get("add_offset", 0.0))
+    values = bounded * packing.factor + packing.offset
     sign = -1.0 if channel == "depth" and str(told.get("positive", "")).lower() == "up" else 1.0
     values = sign * (values * to_si.factor + to_si.offset)
     origin: Origin = "derived" if channel in COMPUTED or _is_computed(told) else "measured"
     return Values(name, np.where(good, values, np.nan), origin)
 
 
-def stored_numbers(variable: Any) -> Array:
-    """The numbers of a variable as stored, (n,), NaN where there is none."""
+def stored_numbers(variable: Any, packing: Packing) -> Array:
+    """The numbers of a variable, unpacked, (n,), NaN where there is none."""
     told, stored = attributes(variable), np.atleast_1d(variable[...])
     missing = [np.atleast_1d(told[key]) for key in ("_FillValue", "missing_value") if key in told]
     blank = np.isinf(stored) | np.isin(stored, np.concatenate(missing) if missing else [])
     values = np.clip(stored.astype(np.float64), -LARGEST, LARGEST)
-    return np.where(blank, np.nan, values * float(told.get("scale_factor", 1.0)) + float(told.get("add_offset", 0.0)))
+    return np.where(blank, np.nan, values * packing.factor + packing.offset)
 
 
 def _valid(stored: NDArray[Any], told: dict[str, Any]) -> NDArray[np.bool_]:

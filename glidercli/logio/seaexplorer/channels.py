@@ -31,7 +31,7 @@ from glidercli.logio.quantities import Quantity, channels_from, degrees, without
 from glidercli.logio.whereabouts import Whereabouts, whereabouts
 from glidercli.units import CM3, DBAR, DEGREE, MILLIMETRE
 
-__all__ = ["NOTES", "SENTINELS", "USED", "channels_of", "near_of"]
+__all__ = ["NOTES", "SENTINELS", "USED", "channels_of", "impossible_places", "near_of"]
 
 Array = NDArray[np.float64]
 Times = NDArray[np.int64]
@@ -116,15 +116,30 @@ def _phase(time_ns: Times, state: Array, warnings: list[str]) -> Channel:
 def _fixes(time_ns: Times, used: Mapping[str, Array], warnings: list[str]) -> list[Channel]:
     """Genuine GPS fixes: where the position changes at the surface; 0, 0 is none."""
     latitude, longitude = degrees(used["Lat"]), degrees(used["Lon"])
-    valid = (np.abs(latitude) <= 90.0) & (np.abs(longitude) <= 180.0) & ((latitude != 0.0) | (longitude != 0.0))
-    rows = np.flatnonzero(valid)
+    given = np.isfinite(used["Lat"]) | np.isfinite(used["Lon"])
+    impossible = impossible_places(used)
+    rows = np.flatnonzero(given & ~impossible)
     changed = np.zeros(len(time_ns), dtype=bool)
     changed[rows[1:]] = (np.diff(latitude[rows]) != 0.0) | (np.diff(longitude[rows]) != 0.0)
     fix = changed & (used["NavState"] == AT_SURFACE)
-    others = int(((np.isfinite(used["Lat"]) | np.isfinite(used["Lon"])) & ~fix).sum())
-    if others:
+    if count := int(impossible.sum()):
+        warnings.append(
+            f"Lat, Lon: {count} impossible values left out: beyond 90 or 180 deg, 60 minutes or more, 0 in both, or "
+            "one without the other"
+        )
+    if others := int((given & ~impossible & ~fix).sum()):
         warnings.append(f"Lat, Lon: {others} values left out that are no new fix at the surface, {int(fix.sum())} kept")
     return [Channel("latitude", time_ns[fix], latitude[fix]), Channel("longitude", time_ns[fix], longitude[fix])]
+
+
+def impossible_places(table: Mapping[str, Array]) -> NDArray[np.bool_]:
+    """Where Lat, Lon hold what is no position, (n,); false where both are blank or sentinels, or the file has none."""
+    if not {"Lat", "Lon"} <= table.keys():
+        return np.zeros(len(next(iter(table.values()), ())), dtype=bool)
+    told = [np.where(np.isfinite(table[n]) & ~np.isin(table[n], SENTINELS), table[n], np.nan) for n in ("Lat", "Lon")]
+    latitude, longitude = (degrees(values) for values in told)
+    place = (np.abs(latitude) <= 90.0) & (np.abs(longitude) <= 180.0) & ((latitude != 0.0) | (longitude != 0.0))
+    return np.asarray(np.isfinite(told).any(axis=0) & ~place)
 
 
 def near_of(time_ns: Times, table: Mapping[str, Array]) -> Whereabouts | None:

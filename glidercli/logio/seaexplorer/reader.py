@@ -23,7 +23,7 @@ from glidercli.logio.number_cells import numbers
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.records import sampled, to_ns, usable
 from glidercli.logio.report import FileReport
-from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, USED, channels_of, near_of
+from glidercli.logio.seaexplorer.channels import NOTES, SENTINELS, USED, channels_of, impossible_places, near_of
 
 __all__ = ["is_seaexplorer", "read_seaexplorer"]
 
@@ -31,6 +31,7 @@ Times = NDArray[np.int64]
 
 MOST_COLUMNS = 2000
 """Real files have 10 to 60."""
+IMPOSSIBLE = "impossible value: no such position"
 HEAD = 65536
 """Bytes that the first line stands in."""
 NAVIGATION, PAYLOAD = "Timestamp", "PLD_REALTIMECLOCK"
@@ -71,8 +72,10 @@ def read_seaexplorer(path: Path, aids: Aids = Aids()) -> Part:
     whose["title"] = f"{whose.get('platform', 'SeaExplorer')} log"
     log = Log({channel.name: channel for channel in channels if len(channel)}, "measured", whose | NOTES)
     kept = sampled(time_ns[good], log.channels)
-    if not kept.all():
-        dropped["no usable value"] += int((~kept).sum())
+    lost = impossible_places(table) & ~kept
+    for reason, which in ((IMPOSSIBLE, lost), ("no usable value", ~kept & ~lost)):
+        if count := int(which.sum()):
+            dropped[reason] += count
     damaged = "" if whole else DAMAGED
     cut = CUT if whole and ends_open(data) and _lacks_fields(lines[-1], names) else ""
     error = "; ".join(fault for fault in (damaged, foreign, cut) if fault) or None

@@ -13,6 +13,7 @@ from glidercli.logio.quantities import channel_of
 from glidercli.logio.reader import Part
 from glidercli.logio.seaglider.actuators import clear_of_motors
 from glidercli.logio.seaglider.columns import DEPTH_CM, ENGINEERING, cells, engineering
+from glidercli.logio.seaglider.dive_start import other_start
 from glidercli.logio.seaglider.gathering import Dive, Gathering
 from glidercli.logio.seaglider.log_text import declination_of, read_log
 from glidercli.logio.seaglider.states import held
@@ -46,7 +47,7 @@ def read_eng(path: Path, data: bytes) -> Part:
     table = cells({name: name for name in table}, table, gathering.warnings)
     good = gathering.usable("", time_ns, table)
     time_ns, table = time_ns[good], {name: values[good] for name, values in table.items()}
-    declination, log = _beside(path, text.dive, gathering)
+    declination, log = _beside(path, text.dive, text.start_ns, gathering)
     channels = engineering(time_ns, table, {name: name for name in table}, declination, gathering.warnings)
     channels = clear_of_motors(channels, log.events if log else (), gathering.warnings)
     if "depth" in table:
@@ -63,8 +64,11 @@ def read_eng(path: Path, data: bytes) -> Part:
     return gathering.part(path, text.dive, ("eng",), error=error)
 
 
-def _beside(path: Path, dive: Dive, gathering: Gathering) -> tuple[float | None, Log | None]:
-    """Magnetic variation, deg, or None, and the .log of this dive that stands beside under the same name, or None."""
+def _beside(path: Path, dive: Dive, start_ns: int, gathering: Gathering) -> tuple[float | None, Log | None]:
+    """Magnetic variation, deg, or None, and the .log of this dive that stands beside under the same name, or None.
+
+    start_ns : start of the dive by the .eng, UTC ns.
+    """
     stem = Path(path.name.removesuffix(".gz")).stem
     beside = next((file for ending in BESIDE if (file := path.with_name(stem + ending)).is_file()), None)
     if beside is None:
@@ -81,6 +85,7 @@ def _beside(path: Path, dive: Dive, gathering: Gathering) -> tuple[float | None,
             raise InputError(beside, f"is of {text.dive.name or 'an unknown dive'}, this is {dive.name or 'unknown'}")
         part = read_log(beside, data)
         gathering.beside.append(beside)
+        gathering.warnings[:0] = other_start(start_ns, text.start_ns, beside.name)
         if fault := part.report.error if whole else DAMAGED:
             gathering.warnings.append(f"{beside.name} beside it: {fault}")
         return declination_of(text.lines), part.log

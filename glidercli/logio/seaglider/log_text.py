@@ -21,6 +21,7 @@ from glidercli.logio.reader import Part
 from glidercli.logio.records import NO_TIME
 from glidercli.logio.seaglider.actuators import counts_of_vbd, moves, surface_pump
 from glidercli.logio.seaglider.columns import SEA, fixes
+from glidercli.logio.seaglider.dive_start import doubts_about_start
 from glidercli.logio.seaglider.gathering import Gathering
 from glidercli.logio.seaglider.states import States, number_of, phase, take_states
 from glidercli.logio.seaglider.text_file import TextFile, read_text, since, to_number, utc_ns
@@ -70,6 +71,9 @@ def read_log(path: Path, data: bytes) -> Part:
     for fields in pumped[:1]:
         gathering.events += surface_pump([to_number(field) for field in fields], text.start_ns)
     _fixes([fields for key, fields in lines if key in FIXES], gathering)
+    before, after = (max((_fix_ns(f) for key, f in lines if key == name), default=NO_TIME) for name in FIXES[1:])
+    last = max([*states.time_ns.tolist(), *events_ns.tolist()], default=NO_TIME)
+    gathering.warnings[:0] = doubts_about_start(text.start_ns, before, after, last)  # first: a list is shown in part
     return gathering.part(path, text.dive, ("log",), yields=frozenset({"depth"}), error=CUT if cut else None)
 
 

@@ -377,3 +377,27 @@ def test_of_several_profiles_one_that_goes_up_and_down_is_left_out_by_name(tmp_p
         InputError, match=r"has no profile of two usable .* 6 in a profile whose depth goes up and down"
     ):
         read_casts(save(whole.isel(P=[1, 1]).assign(TIME=("P", HOURS[:2])), tmp_path / "none.nc"))
+
+
+@pytest.mark.parametrize(("key", "number", "text"), [("scale_factor", 0.5, "0.5"), ("add_offset", -2.0, "-2.0")])
+def test_packing_that_is_a_number_in_text_is_taken_and_said(mooring, tmp_path, key, number, text):
+    read_of = {}
+    for told in (number, text):
+        path = save(mooring, tmp_path / f"{type(told).__name__}.nc")
+        with netCDF4.Dataset(path, "a") as file:
+            file["TEMP"].setncattr(key, told)
+        read_of[type(told)] = read_casts(path)
+    for as_number, as_text in zip(read_of[float], read_of[str], strict=True):
+        assert as_text.temperature.tolist() == as_number.temperature.tolist()
+    note = f"TEMP: its {key} is the text '{text}', taken as the number that it spells"
+    assert any(note in warning for warning in read_of[str][0].warnings)
+    assert not any(note in warning for cast in read_of[float] for warning in cast.warnings)
+
+
+@pytest.mark.parametrize("told", ["half", "", "nan"])
+def test_packing_that_is_no_number_is_an_error(mooring, tmp_path, told):
+    path = save(mooring, tmp_path / "m.nc")
+    with netCDF4.Dataset(path, "a") as file:
+        file["TEMP"].setncattr("scale_factor", told)
+    with pytest.raises(InputError, match=f"TEMP: its scale_factor is the text '{told}'; a single finite number is"):
+        read_casts(path)
