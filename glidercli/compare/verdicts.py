@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.compare.facts import FLIGHT, Fact, Facts
+from glidercli.compare.facts import FLIGHT, OTHER, Fact, Facts
 from glidercli.dives import Interval, phases
 from glidercli.log import Log
 from glidercli.residuals import on_circle, table_values
@@ -62,6 +62,8 @@ def _judged(fact: Fact, log: Log, intervals: tuple[Interval, ...]) -> FactVerdic
 
 def quantity(fact: Fact, log: Log, intervals: tuple[Interval, ...]) -> float:
     """The value that a log gives for a fact's quantity, in the fact's unit; see facts.py for what each means."""
+    if fact.quantity == OTHER:
+        raise _NotSimulated("no log holds it")
     if fact.channel is not None:
         series = _series(log, fact.channel, fact.phase, intervals)
         return _statistic(fact.quantity, series)
