@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from glidercli.compare.facts import FLIGHT, Fact
+from glidercli.compare.facts import FLIGHT, OTHER, Fact
 from glidercli.dives import Interval, phases
 from glidercli.log import Log
 from glidercli.residuals import table_values
@@ -21,14 +21,17 @@ if TYPE_CHECKING:
 __all__ = ["BAND", "draw_facts"]
 
 BAND = "#999999"
-_LEVELS = ("mean", "median", "minimum", "maximum", "first", "last")
+_LEVELS = ("mean", "median", "minimum", "maximum")
+_ENDS = {"first": (0, 0), "last": (-1, 1)}
+"""Which of the parts, and which end of it, a quantity speaks of."""
 
 
 def draw_facts(panels: Mapping[str, Axes], runs: Sequence[Run], zero: int, scale: float) -> list[str]:
     """Draw each fact's value +- tolerance, and return a line that names those with no place in the figure.
 
     The time that a band spans is that of the first simulated log's phase. A level spans its phase, a time is a
-    vertical band on the depth panel, and a heading change stands at its phase's end, from the heading at its begin.
+    vertical band on the depth panel, a first or last value stands at that end of its phase, and a heading change at its
+    phase's end, from the heading at its begin. What no log holds is not named.
 
     zero : UTC ns of the time axis' zero; scale : its unit per ns.
     """
@@ -37,7 +40,8 @@ def draw_facts(panels: Mapping[str, Axes], runs: Sequence[Run], zero: int, scale
     undrawn = [
         one.fact.name
         for one in runs[0].facts
-        if not _drawn(panels, one.fact, log, _during(one.fact, log, intervals), zero, scale)
+        if one.fact.quantity != OTHER
+        and not _drawn(panels, one.fact, log, _during(one.fact, log, intervals), zero, scale)
     ]
     return [f"Published, not drawn: {', '.join(undrawn)}."] if undrawn else []
 
@@ -59,6 +63,9 @@ def _drawn(
         _level(panels["depth"], during, low, high, zero, scale)
     elif fact.channel in panels and fact.quantity in _LEVELS and fact.channel is not None:
         _level(panels[fact.channel], during, low, high, zero, scale)
+    elif fact.channel in panels and fact.quantity in _ENDS and fact.channel is not None:
+        part, end = _ENDS[fact.quantity]
+        _mark(panels[fact.channel], (during[part][end] - zero) * scale, fact.value, fact.tolerance)
     elif fact.quantity in ("time_to_max_depth", "duration") and "depth" in panels and len(during) == 1:
         begin = (during[0][0] - zero) * scale
         second = scale / NANOSECOND
@@ -68,13 +75,14 @@ def _drawn(
     elif fact.quantity == "heading_change" and "heading" in panels and "heading" in log and len(during) == 1:
         heading = log["heading"]
         start = float(np.interp(during[0][0], heading.time_ns, table_values(heading)))
-        panels["heading"].errorbar(
-            (during[0][1] - zero) * scale, start + fact.value, yerr=fact.tolerance, color=BAND, marker="o",
-            markersize=4, capsize=4, linewidth=2, zorder=1.5,
-        )  # fmt: skip
+        _mark(panels["heading"], (during[0][1] - zero) * scale, start + fact.value, fact.tolerance)
     else:
         return False
     return True
+
+
+def _mark(axes: Axes, time: float, value: float, tolerance: float) -> None:
+    axes.errorbar(time, value, yerr=tolerance, color=BAND, marker="o", markersize=4, capsize=4, linewidth=2, zorder=1.5)
 
 
 def _level(axes: Axes, during: list[tuple[int, int]], low: float, high: float, zero: int, scale: float) -> None:

@@ -24,6 +24,7 @@
     heading_change                             deg    turn made, unwrapped, clockwise positive; summed over all dives
     turn_rate                                  deg/s  heading_change over the time it took
     density_change                             %      of the density at the shallowest sample, to the deepest
+    other                                      any    what no log holds: never simulated; the note, required, says why
     mean, median, minimum, maximum, range,     the channel's unit in tables (pitch: deg)
     first, last                                of a channel; the mean by time (trapezoids), the median by samples
 
@@ -44,7 +45,7 @@ from glidercli.dives import LEGS
 from glidercli.errors import InputError
 from glidercli.files import read_toml
 
-__all__ = ["CHANNEL_QUANTITIES", "FLIGHT", "LOG_QUANTITIES", "Fact", "Facts", "read_facts"]
+__all__ = ["CHANNEL_QUANTITIES", "FLIGHT", "LOG_QUANTITIES", "OTHER", "Fact", "Facts", "read_facts"]
 
 FLIGHT = "flight"
 """The phase that stands for the whole log."""
@@ -58,6 +59,9 @@ LOG_QUANTITIES = {
     "density_change": "%",
 }
 """Quantities of a log and their units."""
+
+OTHER = "other"
+"""The quantity of a published value that no log holds, as the sampling of an instrument; its unit is free."""
 
 CHANNEL_QUANTITIES = ("mean", "median", "minimum", "maximum", "range", "first", "last")
 """Quantities of one channel, in its table unit."""
@@ -181,8 +185,13 @@ def _quantity_faults(where: str, quantity: str, entry: Mapping[str, Any]) -> lis
         if not isinstance(channel, str) or channel not in known:
             return [f"{where}.channel = {channel!r}; allowed: {', '.join(known)}"]
         faults, right = [], CHANNELS[channel].column_unit
+    elif quantity == OTHER:
+        faults = [f"{where}.{key}: {OTHER} takes none" for key in ("channel", "phase") if key in entry]
+        noted = isinstance(entry.get("note"), str) and entry["note"].strip()
+        return faults if noted else [*faults, f"{where}.note: missing; it says why no log holds the value"]
     else:
-        return [f"{where}.quantity = {quantity!r}; allowed: {', '.join((*LOG_QUANTITIES, *CHANNEL_QUANTITIES))}"]
+        allowed = ", ".join((*LOG_QUANTITIES, OTHER, *CHANNEL_QUANTITIES))
+        return [f"{where}.quantity = {quantity!r}; allowed: {allowed}"]
     if isinstance(unit, str) and unit != right:
         faults.append(f"{where}.unit = {unit!r}; allowed for this quantity: {right}")
     return faults

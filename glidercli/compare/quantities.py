@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.compare.facts import FLIGHT
+from glidercli.compare.facts import FLIGHT, OTHER
 from glidercli.dives import Interval
 from glidercli.log import Log
 from glidercli.residuals import table_values
@@ -28,6 +28,8 @@ def quantity(name: str, channel: str | None, phase: str, log: Log, intervals: tu
 
     Raises Missing where the log does not hold what it needs.
     """
+    if name == OTHER:
+        raise Missing("no log holds it")
     if channel is not None:
         series = _series(log, channel, phase, intervals)
         return _statistic(name, series)

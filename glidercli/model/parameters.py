@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
+from glidercli.errors import InputError
 from glidercli.frames import Vector
 from glidercli.vehicle.vehicle import Vehicle
 
-__all__ = ["Controls", "Parameters", "parameters", "symmetric", "without_coupling"]
+__all__ = ["Controls", "Parameters", "changed", "parameters", "symmetric", "without_coupling"]
 
 
 class Parameters(NamedTuple):
@@ -96,6 +98,23 @@ def parameters(vehicle: Vehicle) -> Parameters:
         chi=ballast.thermal_expansion,
         T_0=ballast.reference_temperature,
     )
+
+
+def changed(p: Parameters, changes: Mapping[str, Any]) -> Parameters:
+    """The parameters with others in place of some, by name; three numbers where there were three.
+
+    Raises InputError for a name that is none, or a value of another shape; values are not checked.
+    """
+    made: dict[str, Any] = {}
+    for name, value in changes.items():
+        if name not in p._fields:
+            raise InputError("changes", f"{name} is no parameter; allowed: {', '.join(p._fields)}")
+        numbers = value if isinstance(value, (tuple, list)) else (value,)
+        size = 3 if isinstance(getattr(p, name), tuple) else 1
+        if len(numbers) != size or (size == 3) != isinstance(value, (tuple, list)):
+            raise InputError("changes", f"{name} = {value!r}; allowed: {'three numbers' if size == 3 else 'a number'}")
+        made[name] = tuple(float(number) for number in numbers) if size == 3 else float(value)
+    return p._replace(**made)
 
 
 def without_coupling(p: Parameters) -> Parameters:

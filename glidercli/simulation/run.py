@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from glidercli.log import Log
     from glidercli.ocean.ocean import Ocean
     from glidercli.simulation.energy import Costs
-    from glidercli.simulation.flight import Flight
+    from glidercli.simulation.flight import Excursion, Flight
     from glidercli.simulation.mission import Mission
     from glidercli.simulation.task import Task
 
@@ -33,7 +33,8 @@ class Simulation:
 
     log : every sample; of a flight that was given away in pieces, the last piece, with all events. distance : m, over
     ground along the horizontal track. net_buoyancy_in_water : kg, sinking positive, at the end: what was pumped and
-    what the hull displaces there. wall : s of integration alone. inputs : files that it was made from.
+    what the hull displaces there. excursions : roll beyond 90 deg, the flow's angles beyond the fitted one. wall : s of
+    integration alone. inputs : files that it was made from.
     """
 
     log: Log
@@ -42,6 +43,7 @@ class Simulation:
     distance: float
     costs: Costs
     net_buoyancy_in_water: float
+    excursions: tuple[Excursion, ...]
     wall: float
     warnings: tuple[str, ...]
     inputs: tuple[Path, ...]
@@ -71,9 +73,10 @@ class Simulation:
 
 
 def simulate(
-    mission: str | Path | None = None,
+    mission: str | Path | tuple[Mission, Path] | None = None,
     *,
     vehicle: Vehicle | str | None = None,
+    changes: Mapping[str, Any] | None = None,
     net_buoyancy: float | None = None,
     mass_position: float | None = None,
     mass_rotation: float | None = None,
@@ -97,8 +100,11 @@ def simulate(
 
     Parameters
     ----------
-    mission : file, or name of a shipped one. Without one the three controls are held, heading north.
+    mission : file, name of a shipped one, or a Mission with the file that its own files stand beside. Without one the
+        three controls are held, heading north.
     vehicle : a Vehicle, name or file; default: the mission's, else seawing.
+    changes : parameters of the model by their symbols (docs/reference/symbols), SI, in place of the vehicle's and the
+        mission's. Their values are not checked: they may be what no vehicle can have.
     net_buoyancy : kg, sinking positive. mass_position : m. mass_rotation : rad.
     trim : a trim in the contract's names: its controls are held, and the flight begins in its motion.
     controls : a log whose actuators are flown. initial : a log whose first depth sample the flight begins at.
@@ -123,7 +129,7 @@ def simulate(
     NoSolutionError
         The motion cannot be integrated.
     """
-    from glidercli.model.parameters import parameters
+    from glidercli.model.parameters import changed, parameters
     from glidercli.ocean.gathering import gathered_casts, gathered_currents, sources
     from glidercli.ocean.ocean import Ocean
     from glidercli.simulation.mission_file import load_mission
@@ -132,7 +138,7 @@ def simulate(
 
     if equations not in ("full", "paper"):
         raise InputError("equations", f"{equations!r} is not allowed; full or paper")
-    plan = load_mission(mission) if mission is not None else None
+    plan = load_mission(mission) if isinstance(mission, (str, Path)) else mission
     given_files = list(inputs)
     asked = {} if plan is None else {"vehicle": vehicle is None, "ctd": ctd is None, "adcp": adcp is None}
     if plan:
@@ -146,6 +152,7 @@ def simulate(
     p = parameters(craft)
     if plan and plan[0].neutral_density_kg_m3:
         p = p._replace(rho_0=plan[0].neutral_density_kg_m3)
+    p = changed(p, changes or {})
     _check_numbers(duration, start_depth, every, rtol)
     water, flow = sources(ctd), sources(adcp)
     water_files = [item for item in (*water, *flow) if isinstance(item, Path)]
@@ -172,9 +179,12 @@ def simulate(
     )  # fmt: skip
     how = "recorded controls" if controls else "controls held"
     remade = list(dict.fromkeys([*ocean.reconstructed, *wanted.reconstructed]))
+    metadata = _metadata(plan[0] if plan else None, craft, equations, how, remade)
+    if changes:
+        metadata["parameters_changed"] = ", ".join(f"{name} = {value}" for name, value in changes.items())
     flight, log = _flown(
-        wanted, ocean, p, craft, _metadata(plan[0] if plan else None, craft, equations, how, remade), every=every,
-        rtol=rtol, full=equations == "full", piece=piece, progress=progress, file=plan[1] if plan else None,
+        wanted, ocean, p, craft, metadata, every=every, rtol=rtol, full=equations == "full", piece=piece,
+        progress=progress, file=plan[1] if plan else None,
     )  # fmt: skip
     left = ocean.beyond(*flight.depths, float(flight.times[-1]))
     warnings = [*ocean.warnings, *wanted.warnings, *_warnings(flight, craft, wanted), *left]
@@ -201,6 +211,7 @@ def simulate(
         distance=flight.distance,
         costs=spent,
         net_buoyancy_in_water=flight.excess,
+        excursions=flight.excursions,
         wall=flight.wall,
         warnings=tuple(warnings),
         inputs=tuple(dict.fromkeys([*given_files, *vehicle_files, *wanted.files[:1], *water_files, *wanted.files[1:]])),

@@ -160,6 +160,15 @@ def test_every_fault_is_reported_together(tmp_path: Path) -> None:
         unit = "s"
         tolerance = 1
         place = ""
+        [[fact]]
+        name = "d"
+        quantity = "other"
+        channel = "depth"
+        phase = "dive"
+        value = 6.0
+        unit = "s"
+        tolerance = 1
+        place = "p. 3"
         """,
         encoding="utf-8",
     )
@@ -185,6 +194,9 @@ def test_every_fault_is_reported_together(tmp_path: Path) -> None:
         "fact 4 (b).channel = 'phase'; allowed: depth",
         "fact 5 (c).channel: duration takes none",
         "fact 5 (c).place = ''; allowed: a text",
+        "fact 6 (d).channel: other takes none",
+        "fact 6 (d).phase: other takes none",
+        "fact 6 (d).note: missing; it says why no log holds the value",
     ):
         assert fault in text
 
@@ -209,6 +221,29 @@ def test_files_that_are_no_facts(tmp_path: Path, content: bytes, fault: str) -> 
 def test_a_missing_file(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no such file"):
         read_facts(tmp_path / "facts.toml")
+
+
+def test_what_no_log_can_hold_is_not_simulated_and_says_why(tmp_path: Path) -> None:
+    path = tmp_path / "facts.toml"
+    path.write_text(
+        """
+        [facts]
+        source = "s"
+        [[fact]]
+        name = "sampling"
+        quantity = "other"
+        value = 6.0
+        unit = "of any kind"
+        tolerance = 0.5
+        place = "p. 1"
+        note = "a simulation has no instruments"
+        """,
+        encoding="utf-8",
+    )
+    found = glidercli.compare(read_facts(path), flight())
+    (one,) = found.runs[0].facts
+    assert (one.verdict, one.simulated, one.difference) == ("not simulated", None, None)
+    assert "sampling: no log holds it; a simulation has no instruments." in found.text()
 
 
 def test_facts_given_to_the_simulation_are_counted_apart() -> None:
