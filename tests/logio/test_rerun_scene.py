@@ -299,3 +299,30 @@ def test_a_sample_alone_is_drawn_as_a_dot_in_plots(tmp_path: Path) -> None:
         assert drawn(path, entity, "SeriesLines:widths") == wanted
     alone = written(log.sliced(START, START + 1), tmp_path, "one.rrd")
     assert drawn(alone, entity, "SeriesLines:widths") == [(0, DOT)]
+
+
+@pytest.mark.parametrize("aspect", [1.3, 16 / 9])
+def test_surface_walls_and_bottom_are_all_in_the_picture(aspect: float) -> None:
+    rng = np.random.default_rng(2)
+    for _ in range(50):
+        size = 10.0 ** rng.uniform(0.0, 5.0, 3)
+        places = np.cumsum(rng.normal(size=(200, 3)), axis=0) * size / 10.0
+        places[:, 2] = np.abs(places[:, 2])
+        bottom = float(places[:, 2].max() * rng.uniform(1.0, 3.0))
+        sea = Sea.about(places, bottom, np.empty((0, 3)), 1.3)  # the overview's panel; at 16:9 it fills the window
+        found = {chunk.entity_path: chunk.to_record_batch() for chunk in sea.chunks}
+        parts = [
+            found[f"/world/{name}"].column("Mesh3D:vertex_positions").to_pylist()[0] for name in ("surface", "bottom")
+        ]
+        parts += found["/world/box"].column("LineStrips3D:strips").to_pylist()[0]
+        parts.append(found["/world/bottom/name"].column("Points3D:positions").to_pylist()[0])
+        eye, target = sea.camera
+        forward = (target - eye) / np.linalg.norm(target - eye)
+        right = np.cross(forward, [0.0, 0.0, -1.0])
+        right /= np.linalg.norm(right)
+        seen = np.concatenate(parts) * [1.0, 1.0, sea.exaggeration] - eye
+        half = np.tan(np.radians(27.5)) * (seen @ forward)  # Rerun's field of view is 55 deg high
+        assert (half > 0.0).all()
+        assert (np.abs(seen @ np.cross(right, forward)) <= half).all()
+        assert (np.abs(seen @ right) <= aspect * half).all()
+        assert found["/world/bottom/name"].column("Points3D:labels").to_pylist()[0] == [f"bottom, {bottom:g} m"]

@@ -23,6 +23,8 @@ Drawn = tuple[list[Any], list[str]]
 
 ARROWS = 60
 """Arrows of current along a track, at most."""
+APART = 0.15
+"""Part of a track's size between its ends for two names: one is some 60 px wide in a panel of 500 px."""
 
 
 def track(rows: Array, world: str, gaps: str, colour: look.Colour | None = None) -> Drawn:
@@ -57,12 +59,11 @@ def track(rows: Array, world: str, gaps: str, colour: look.Colour | None = None)
     marker: dict[str, Any] = {"radii": rr.Radius.ui_points(7), "colors": colour or look.GOLD}
     chunks.append(row(f"{world}/vehicle/marker", rr.Points3D([[0, 0, 0]], **marker)))
     if colour is None:
-        near = float(np.linalg.norm(places[0] - places[-1])) < 0.1 * extent
-        ends: dict[str, Any] = {"labels": ["start", "end"], "colors": [look.GREEN, look.RED]}
-        if near:
-            ends["labels"] = ["start and end", ""]
-        ends |= {"show_labels": True, "radii": rr.Radius.ui_points(5)}
-        chunks.append(row(f"{world}/ends", rr.Points3D(places[[0, -1]], **ends)))
+        near = float(np.linalg.norm(places[0] - places[-1])) < APART * extent
+        both, words = places[[0, -1]], ["start and end", ""] if near else ["start", "end"]
+        balls = rr.Points3D(both, colors=[look.GREEN, look.RED], radii=rr.Radius.ui_points(5))
+        chunks.append(row(f"{world}/ends", balls))
+        chunks.append(row(f"{world}/ends/names", rr.Points3D(both, labels=words, **look.NAMED)))
         note += " It starts at the green point and ends at the red one; the gold one is the vehicle."
     notes = [note] if note else []
     return chunks, [*notes, f"The track is broken at {gaps}."] if gaps else notes
