@@ -327,6 +327,8 @@ def test_the_track_is_broken_at_gaps(tmp_path: Path) -> None:
     assert [(ball.pose.position.x, ball.pose.position.y, ball.pose.position.z) for ball in entity.spheres] == [
         (log["north"].values[20], east[20], log["down"].values[20])
     ]
+    (feature,) = json.loads(found["/map/track"][0][1].geojson)["features"]
+    assert [len(line) for line in feature["geometry"]["coordinates"]] == [20, N - 21]
     told = "2 gaps of more than 60 s between its samples"
     assert {entry.key: entry.value for entry in entity.metadata}["broken at"] == told
     assert any(f"the track is broken at {told}" in message.message for _, message in found["/log"])

@@ -246,7 +246,9 @@ def drawn(path: Path, entity: str, component: str) -> list[Any]:
 def test_track_is_broken_at_gaps(tmp_path: Path) -> None:
     t = np.concatenate([np.arange(0.0, 300.0, 10.0), [5000.0], np.arange(60_000.0, 60_300.0, 10.0)])
     phase = np.where(t % 300.0 < 150.0, 1.0, 2.0)
-    path = written(log_of(sinking(t, phase=phase), "measured", {}), tmp_path)
+    origin = {"origin_latitude_deg": "0", "origin_longitude_deg": "20"}
+    path = written(log_of(sinking(t, phase=phase), "measured", origin), tmp_path)
+    assert [len(line) for line in rows(path, "/map/track", "GeoLineStrings:line_strings")[2][0]] == [30, 30]
     places = np.outer(t, [0.3, 0.4, 0.1])
     whole = [np.array(line) for line in rows(path, "/world/path", "LineStrips3D:strips")[2][0]]
     wanted = [places[:30], places[31:]]

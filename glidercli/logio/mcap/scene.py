@@ -53,7 +53,7 @@ class Scene:
         self._bounds = np.array([[np.inf] * 3, [-np.inf] * 3])
         self._level = 0.0  # of the sea surface in map_ned, m
         self._told: list[str] = []
-        self._stretches = Stretches(log, "down")
+        self._stretches, self._on_map = Stretches(log, "down"), Stretches(log, "north")
         self._track, self._way, self._fixes, self._currents = (Thinned(MOST_POINTS) for _ in range(4))
 
     def topics(self, piece: Log) -> list[Topic]:
@@ -120,7 +120,8 @@ class Scene:
         times, track = piece.together(*TRACK)
         codes = self._phase.at(times, (np.nan,))[0]
         self._track.add(np.column_stack([*track, codes, times, self._stretches.of(times)]))
-        self._way.add(np.stack(piece.together(*TRACK[:2])[1], axis=-1))
+        level_ns, level = piece.together(*TRACK[:2])
+        self._way.add(np.column_stack([*level, self._on_map.of(level_ns)]))
         self._fixes.add(np.stack(fixes[1], axis=-1))
         places = np.stack(_place(piece)[1], axis=-1)
         if len(places):

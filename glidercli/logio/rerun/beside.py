@@ -83,7 +83,7 @@ class Beside:
         sea = self._surroundings(chunks, notes)
         told = [scene.fixes(side.log) for side, scene in zip(self._sides, self._scenes, strict=True)]
         mapped_lines = [
-            Line(scene.map, scene.on_map(), mapped, side.colour, side.colour)
+            Line(scene.map, *scene.on_map(), mapped, side.colour, side.colour)
             for side, scene, (_, mapped) in zip(self._sides, self._scenes, told, strict=True)
         ]
         zoom = None

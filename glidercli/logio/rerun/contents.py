@@ -90,7 +90,7 @@ class Contents:
         if water:
             notes.append("Sections: each sample of the water at the depth, and the place, of the track at its time.")
         zoom = None
-        line = Line("/map", self._scene.on_map(), mapped, look.ORANGE, look.VIOLET)
+        line = Line("/map", *self._scene.on_map(), mapped, look.ORANGE, look.VIOLET)
         if len(line.track) or len(line.fixes):
             more, zoom = chart([line])
             chunks += more

@@ -146,10 +146,12 @@ class Scene:
         turned = about[1] + 180.0 - np.mod(180.0 - (rows[:, 1] - about[1]), 360.0)
         return np.stack([north, east, 0.0 * north], axis=-1), np.stack([rows[:, 0], turned], axis=-1)
 
-    def on_map(self) -> Array:
-        """The track on the map, (n, 2), deg; none without an origin."""
+    def on_map(self) -> tuple[Array, Array]:
+        """The track on the map, (n, 2), deg, and the stretch that each place is in, (n,); none without an origin."""
         rows = self.track.rows()
-        return on_chart(rows[:, 0], rows[:, 1], self._about) if self._about and len(rows) else np.empty((0, 2))
+        if not self._about or not len(rows):
+            return np.empty((0, 2)), np.empty(0)
+        return on_chart(rows[:, 0], rows[:, 1], self._about), rows[:, 4]
 
     def _over(self, entity: str, times: Times, values: Any) -> Chunk:
         return columns(entity, self._zero_ns, times, values)
