@@ -289,7 +289,7 @@ def test_a_sample_alone_is_drawn_as_a_dot_in_plots(tmp_path: Path) -> None:
     t = np.concatenate([np.arange(20.0), [500.0], np.arange(1000.0, 1010.0), [2000.0]])
     log = log_of([channel("temperature", t, 10.0 + t)], "measured", {})
     entity, second = f"/{CHANNELS['temperature'].group}/temperature", 10**9
-    wanted = [(0, THIN), (500 * second, DOT), (1000 * second, THIN), (2000 * second, DOT)]
+    wanted = [(0, THIN), (500 * second, DOT), (500 * second + 1, THIN), (2000 * second, DOT)]
     assert drawn(written(log, tmp_path), entity, "SeriesLines:widths") == wanted
     for size in (1, 2, 3, 10):
         path = tmp_path / f"{size}.rrd"

@@ -54,7 +54,7 @@ class Plots:
         self._by_phase = colour is None and {"depth", "phase"} <= {*self._names}
         self._gaps_ns = {name: int(usual_gap(log[name]) * 1e9) for name in self._names}
         self._held: dict[str, tuple[int, bool]] = {}  # the last sample so far, and whether it is joined to one before
-        self._widths: dict[str, float] = {}
+        self._begun: set[str] = set()  # lines whose first sample is drawn
         self.extents: dict[str, Extent] = {}
         self._phase = -1.0
         self._seen: set[int] = set()
@@ -107,20 +107,28 @@ class Plots:
     def ends(self) -> Iterator[Chunk]:
         """What is known of the last samples when no more come: whether they stand alone."""
         for name, (time_ns, is_joined) in self._held.items():
-            yield from self._width(name, np.array([time_ns]), np.array([not is_joined]))
+            yield from self._width(name, np.array([time_ns]), np.array([not is_joined]), last=True)
 
-    def _width(self, name: str, times: Times, alone: Mask) -> Iterator[Chunk]:
-        """Where the width of a line changes, so that samples which are joined to no other are seen."""
+    def _width(self, name: str, times: Times, alone: Mask, last: bool = False) -> Iterator[Chunk]:
+        """The width of a line at its first sample, at samples that are joined to no other, and after these.
+
+        It changes back at the NaN after a sample; at the next sample, which Rerun joins to what was drawn before a
+        change, that would be a dot, too. last : no NaN follows.
+        """
         import rerun as rr
 
-        if name == "heading":  # drawn as points
+        if name == "heading" or not len(times):  # heading is drawn as points
             return
-        widths = np.where(alone, DOT, THICK if name == "depth" and self._by_phase else THIN)
-        changed = np.flatnonzero(np.diff(widths, prepend=self._widths.get(name, 0.0)))
-        if len(changed):
-            self._widths[name] = float(widths[-1])
-            drawn = rr.SeriesLines.columns(widths=widths[changed])
-            yield columns(self._entity(name), self._zero_ns, times[changed], drawn)
+        usual = THICK if name == "depth" and self._by_phase else THIN
+        begins = times[:1][[name not in self._begun and not alone[0]]]
+        changes = np.stack([times[alone], times[alone] + 1], axis=-1).ravel()
+        widths = np.concatenate([np.full(len(begins), usual), np.tile([DOT, usual], int(alone.sum()))])
+        at = np.concatenate([begins, changes])
+        if last and alone[-1]:
+            at, widths = at[:-1], widths[:-1]
+        self._begun.add(name)
+        if len(at):
+            yield columns(self._entity(name), self._zero_ns, at, rr.SeriesLines.columns(widths=widths))
 
     def _extend(self, name: str, values: Array) -> None:
         new = extent(values)
