@@ -41,7 +41,7 @@ class Part:
     partner : name of the recording that a file beside this one usually holds, or "".
     yields : channels that are given up where another file of the dive has them.
     unread : names of columns with data that no channel is taken from.
-    near : positions that are no fixes, for absolute salinity alone; None where the file tells none.
+    near : positions that need be no fixes, for what is derived from them; None where the file tells none.
     """
 
     log: Log

@@ -19,7 +19,7 @@ from glidercli.logio.joining import joined
 from glidercli.logio.reader import Aids, Part
 from glidercli.logio.report import FileReport, all_dropped
 from glidercli.logio.spreading import read_all
-from glidercli.logio.whereabouts import joined_whereabouts
+from glidercli.logio.whereabouts import Whereabouts, joined_whereabouts
 
 __all__ = ["Reading", "read"]
 
@@ -84,6 +84,7 @@ def read(
     parts: list[Part] = []
     reports: dict[Path, FileReport] = {}
     unread: dict[str, None] = {}
+    has_attitude = False
     given = read_all(list(files), format, aids, progress, workers) if reader is None else reader(list(files), aids)
     for found in given:
         report = found.report if isinstance(found, Part) else found
@@ -92,7 +93,10 @@ def read(
         reports[report.path] = report
         if isinstance(found, Part):
             unread |= dict.fromkeys(found.unread)
-            parts.append(dataclasses.replace(found, unread=()))  # thousands of files may name thousands of columns
+            has_attitude |= {"pitch", "heading"} <= found.log.channels.keys()
+            near = _of_use(found.near, has_attitude)
+            found = dataclasses.replace(found, unread=(), near=near)  # thousands of files may name thousands of columns
+            parts.append(found)
     parts = _without_outputs(parts, files, reports)
     if not parts:
         raise _nothing(paths, list(reports.values()))
@@ -103,20 +107,23 @@ def read(
     partners = tuple((part.partner, part.report.path.name) for part in parts if part.partner not in held)
     own = all(FORMATS[part.report.format].own for part in parts if part.report.format)
     nameless = tuple(part.report.path.name for part in parts if not vehicle_of(part))
-    near = joined_whereabouts([part.near for part in parts])
+    near = joined_whereabouts([_of_use(part.near, has_attitude) for part in parts])
     of_pressure = next((part.report.path for part in parts if "pressure" in part.log), None)
     log, whole = joined(parts, own)
     reports |= {report.path: report for report in whole}
     if not own:
         if of_pressure is not None and (doubt := doubt_about_gauges(log)):
-            told = reports[of_pressure]
-            reports[of_pressure] = dataclasses.replace(
-                told, warnings=(doubt, *told.warnings)
-            )  # first: a list is shown in part
+            told = reports[of_pressure]  # the doubt comes first: a long list is shown in part
+            reports[of_pressure] = dataclasses.replace(told, warnings=(doubt, *told.warnings))
         log = with_derived(log, near)
     if "platform" not in log.metadata:
         nameless = ()
     return Reading(log, tuple(reports.values()), dives, partners, tuple(unread), nameless, passed_over)
+
+
+def _of_use(near: Whereabouts | None, has_attitude: bool) -> Whereabouts | None:
+    """Positions that need be no fixes: every one for a track through them, which a log with attitude has no need of."""
+    return near.sparse if has_attitude and near is not None else near
 
 
 def _without_outputs(parts: list[Part], files: dict[Path, bool], reports: dict[Path, FileReport]) -> list[Part]:

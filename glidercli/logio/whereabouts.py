@@ -1,7 +1,8 @@
-"""Where was it, roughly, if nothing is a fix? Positions interpolated or reckoned: for what TEOS-10 derives alone.
+"""Where was it, roughly, if nothing is a fix? Positions interpolated or reckoned, for what can be derived from them.
 
-No sample of a channel comes from them. Absolute salinity needs a place no closer than the 4 degrees of its atlas
-(McDougall et al. 2012), and a vehicle's own reckoning is within some kilometres.
+No sample of latitude or longitude comes from them. Absolute salinity needs a place no closer than the 4 degrees of its
+atlas (McDougall et al. 2012), and a vehicle's own reckoning is within some kilometres. A track is drawn through them
+where none can be reckoned (derived/track.py).
 """
 
 from __future__ import annotations
@@ -36,6 +37,12 @@ class Whereabouts(NamedTuple):
         return np.interp(times, self.time_ns, self.latitude), np.interp(times, self.time_ns, unwound)
 
     @property
+    def sparse(self) -> Whereabouts:
+        """One in ten minutes, which is enough for what TEOS-10 derives."""
+        rows = np.unique(self.time_ns // EVERY, return_index=True)[1]
+        return Whereabouts(self.time_ns[rows], self.latitude[rows], self.longitude[rows])
+
+    @property
     def middle(self) -> tuple[float, float]:
         """Median latitude and longitude, deg; the longitude from -180 to 180."""
         longitude = float(np.median(np.unwrap(self.longitude, period=360.0)))
@@ -43,7 +50,7 @@ class Whereabouts(NamedTuple):
 
 
 def whereabouts(time_ns: Times, latitude: Array, longitude: Array) -> Whereabouts | None:
-    """The positions that can be, one in ten minutes; None where there is none.
+    """The positions that can be, of two at one time the first; None where there is none.
 
     time_ns : (n,), UTC ns, NO_TIME where there is none. latitude, longitude : (n,), deg, NaN where there is none.
     """
@@ -52,7 +59,7 @@ def whereabouts(time_ns: Times, latitude: Array, longitude: Array) -> Whereabout
     if not len(rows):
         return None
     rows = rows[np.argsort(time_ns[rows], kind="stable")]
-    rows = rows[np.unique(time_ns[rows] // EVERY, return_index=True)[1]]
+    rows = rows[np.unique(time_ns[rows], return_index=True)[1]]
     return Whereabouts(time_ns[rows], latitude[rows], longitude[rows])
 
 

@@ -10,6 +10,7 @@ import pytest
 
 from glidercli.log import Channel, Log
 from glidercli.logio.derived.track import with_track
+from glidercli.logio.whereabouts import Whereabouts
 from glidercli.places import geodetic_of_track
 
 TIMES = np.arange(0, 1001, 10, dtype=np.int64) * 10**9
@@ -87,3 +88,95 @@ def test_a_square_in_a_current_with_a_fix_at_each_corner() -> None:
     np.testing.assert_allclose(track["east"].values, east, atol=PLACED, rtol=0.0)
     found = re.findall(r"current of (\S+) m/s east, (\S+) m/s north", track.metadata["track_note"])
     assert found == [("-0.100", "0.050")] * legs
+
+
+EAST = 0.4  # m/s
+YO = np.abs(
+    0.2 * (TIMES * 1e-9 % 400.0) - 40.0
+)  # m, from 40 m up to the surface, and down again: 93 samples, 900 s, under 3 m
+
+
+def positions_of(rows: slice = slice(None)) -> Whereabouts:
+    way = EAST * TIMES[rows] * 1e-9
+    return Whereabouts(TIMES[rows], *geodetic_of_track(0.5 * way, way, 48.9, 179.999))
+
+
+def without_attitude(**extra: Channel) -> Log:
+    return Log({"depth": Channel("depth", TIMES, YO), **extra}, "measured")
+
+
+def test_a_log_without_attitude_is_drawn_through_its_positions() -> None:
+    """Every third sample of depth has one; they go over 180 deg of longitude."""
+    track = with_track(without_attitude(), positions_of(slice(1, None, 3)))
+    rows = TIMES[1::3]
+    way = EAST * (rows - rows[0]) * 1e-9
+    for name, wanted in {"north": 0.5 * way, "east": way, "down": YO[1::3]}.items():
+        assert track[name].origin == "derived"
+        assert track[name].time_ns.tolist() == rows.tolist()
+        np.testing.assert_allclose(track[name].values, wanted, atol=PLACED * 10, rtol=0.0)  # 360 deg less: a digit
+    assert not {"latitude", "longitude"} & track.channels.keys()
+    assert float(track.metadata["origin_latitude_deg"]) == pytest.approx(48.9, abs=1e-4)
+    note = track.metadata["track_note"]
+    assert "through 34 recorded positions, since the log has no pitch and no heading" in note
+    assert "no GPS fixes" in note
+    assert "67 samples of depth without a position are left out" in note
+    assert "longer than" not in note
+
+
+def test_positions_that_jump_are_drawn_and_told() -> None:
+    near = positions_of()
+    near.latitude[50] += 0.01  # 1.1 km
+    track = with_track(without_attitude(), near)
+    assert len(track["north"]) == len(TIMES)
+    assert "; 2 steps between them are longer than 3 m/s and 50 m allow" in track.metadata["track_note"]
+
+
+def test_simulated_positions_serve_as_well() -> None:
+    near = positions_of()
+    places = {"latitude": near.latitude, "longitude": near.longitude}
+    log = without_attitude(**{name: Channel(name, TIMES, values, "simulated") for name, values in places.items()})
+    track = with_track(Log(log.channels, "simulated"))
+    assert len(track["north"]) == len(TIMES)
+    assert "through 101 simulated positions" in track.metadata["track_note"]
+
+
+def afloat() -> Whereabouts:
+    rows = np.flatnonzero(YO < 3.0)
+    return Whereabouts(*(values[rows] for values in positions_of()))
+
+
+def held() -> Whereabouts:
+    """The last position at the surface goes on to be told under water."""
+    near = positions_of()
+    last = np.maximum.accumulate(np.where(YO < 3.0, np.arange(len(YO)), 0))
+    return Whereabouts(TIMES, near.latitude[last], near.longitude[last])
+
+
+@pytest.mark.parametrize(
+    ("near", "told"),
+    [
+        (None, "it has no position under water"),
+        (afloat(), "it has no position under water"),
+        (held(), "its positions, at 93 samples of depth, go on for 0 of 900 s under water: too little"),
+        (positions_of(slice(0, 40)), "go on for 350 of 900 s under water: too little"),
+    ],
+)
+def test_positions_that_do_not_tell_the_way_make_no_track(near: Whereabouts | None, told: str) -> None:
+    log = with_track(without_attitude(pitch=Channel("pitch", TIMES, 0.0 * YO)), near)
+    assert "north" not in log
+    assert log.metadata["track_note"].startswith("no track: the log has no heading, and ")
+    assert told in log.metadata["track_note"]
+
+
+def test_attitude_comes_before_positions() -> None:
+    track = with_track(log_of(0.0), positions_of())
+    assert track["east"].values[-1] == pytest.approx(0.0, abs=1e-9)
+    assert "dead reckoned" in track.metadata["track_note"]
+
+
+def test_attitude_at_other_times_than_depth_is_told() -> None:
+    late = TIMES + 5 * 10**9
+    other = {name: Channel(name, late, np.full(len(late), -0.5)) for name in ("pitch", "heading")}
+    assert with_track(without_attitude(**other)).metadata["track_note"] == (
+        "no track: depth, pitch and heading have no two samples at one time, and it has no position under water"
+    )

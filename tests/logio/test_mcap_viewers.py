@@ -312,6 +312,28 @@ def test_the_sea_surface_lies_at_depth_zero(tmp_path: Path) -> None:
     assert corners[:, 0].max() >= north.max()
 
 
+def test_the_track_is_broken_at_gaps(tmp_path: Path) -> None:
+    late = TIMES.copy()
+    late[20] += 3600 * 10**9
+    late[21:] += 57_600 * 10**9
+    log = full_log()
+    log = Log({n: Channel(n, late, c.values, c.origin) for n, c in log.channels.items()}, log.origin, log.metadata)
+    found = written(log, tmp_path / "a.mcap")
+    entity = found["/viz/track"][0][1].entities[0]
+    east = log["east"].values
+    assert [[point.y for point in line.points] for line in entity.lines] == [east[:20].tolist(), east[21:].tolist()]
+    assert [len(line.colors) for line in entity.lines] == [20, N - 21]
+    assert {line.type for line in entity.lines} == {0}  # LINE_STRIP
+    assert [(ball.pose.position.x, ball.pose.position.y, ball.pose.position.z) for ball in entity.spheres] == [
+        (log["north"].values[20], east[20], log["down"].values[20])
+    ]
+    (feature,) = json.loads(found["/map/track"][0][1].geojson)["features"]
+    assert [len(line) for line in feature["geometry"]["coordinates"]] == [20, N - 21]
+    told = "2 gaps of more than 60 s between its samples"
+    assert {entry.key: entry.value for entry in entity.metadata}["broken at"] == told
+    assert any(f"the track is broken at {told}" in message.message for _, message in found["/log"])
+
+
 def test_the_track_has_the_colours_of_its_phases(tmp_path: Path) -> None:
     codes = np.where(np.arange(N) < N // 2, PHASES.index("dive"), PHASES.index("climb"))
     found = written(full_log().with_channels(channel("phase", codes)), tmp_path / "a.mcap")

@@ -228,3 +228,103 @@ def test_name_of_the_vehicle_stands_in_its_title_as_far_as_it_can(tmp_path: Path
     assert f"SIMULATED attitude; myglider{32 * '!'} hull" in panels(path)
     assert rows(path, "/world/vehicle/course/body/hull", "Capsules3D:radii")[2][0][0] == pytest.approx(0.1)
     assert "1.5 m x 0.2 m" in page(path)
+
+
+def drawn(path: Path, entity: str, component: str) -> list[Any]:
+    """The values of a component in all chunks of an entity, with their elapsed ns where they have a time."""
+    found: list[Any] = []
+    for place, batch in stored(path):
+        if place == entity and component in batch.schema.names:
+            values = batch.column(component).to_pylist()
+            if "elapsed" in batch.schema.names:
+                times = batch.column("elapsed").to_numpy(zero_copy_only=False).astype(np.int64)
+                values = [(int(time), value[0]) for time, value in zip(times, values, strict=True)]
+            found += values
+    return found
+
+
+def test_track_is_broken_at_gaps(tmp_path: Path) -> None:
+    t = np.concatenate([np.arange(0.0, 300.0, 10.0), [5000.0], np.arange(60_000.0, 60_300.0, 10.0)])
+    phase = np.where(t % 300.0 < 150.0, 1.0, 2.0)
+    origin = {"origin_latitude_deg": "0", "origin_longitude_deg": "20"}
+    path = written(log_of(sinking(t, phase=phase), "measured", origin), tmp_path)
+    assert [len(line) for line in rows(path, "/map/track", "GeoLineStrings:line_strings")[2][0]] == [30, 30]
+    places = np.outer(t, [0.3, 0.4, 0.1])
+    whole = [np.array(line) for line in rows(path, "/world/path", "LineStrips3D:strips")[2][0]]
+    wanted = [places[:30], places[31:]]
+    for line, points in zip(whole, wanted, strict=True):
+        np.testing.assert_allclose(line, points, rtol=1e-6)  # float32
+    strips = [np.array(line) for line in rows(path, "/world/track", "LineStrips3D:strips")[2][0]]
+    for line, ends in zip(strips, [(0, 15), (15, 29), (31, 46), (46, 60)], strict=True):
+        np.testing.assert_allclose(line, places[ends[0] : ends[1] + 1], rtol=1e-6)
+    np.testing.assert_allclose(rows(path, "/world/track", "Points3D:positions")[2][0], places[30:31], rtol=1e-6)
+    assert "The track is broken at 2 gaps of more than 60 s between its samples." in page(path)
+
+
+def test_track_without_gaps_is_one_line_and_says_nothing_of_them(tmp_path: Path) -> None:
+    path = written(log_of(sinking(np.arange(0.0, 6000.0, 600.0)), "simulated", {}), tmp_path)  # none of them is a gap
+    assert len(rows(path, "/world/path", "LineStrips3D:strips")[2][0]) == 1
+    assert "broken" not in page(path)
+
+
+def test_thinning_makes_and_hides_no_gap(tmp_path: Path) -> None:
+    """Of 50,000 samples 20,000 are drawn, so that most lie further apart than 60 s; the only gap is one of 61 s."""
+    t = np.arange(0.0, 1_500_000.0, 30.0)
+    t[31_000:] += 121.0  # 30 s and 121 s are more than five times 30 s
+    path = written(log_of(sinking(t, down=0.001 * t, depth=0.001 * t), "simulated", {}), tmp_path)
+    lines = [np.array(line) for line in rows(path, "/world/path", "LineStrips3D:strips")[2][0]]
+    assert len(lines) == 2
+    assert sum(map(len, lines)) == 20_000
+    east = 0.4 * t
+    # thinned to every third row at most, 36 m: the ends beside the gap are within that of its edges
+    assert 0.0 <= east[30_999] - lines[0][-1, 1] <= 36.0
+    assert 0.0 <= lines[1][0, 1] - east[31_000] <= 36.0
+    assert "broken at 1 gap of more than 150 s" in page(path)
+
+
+def test_a_sample_alone_is_drawn_as_a_dot_in_plots(tmp_path: Path) -> None:
+    from glidercli.logio.rerun.plots import DOT, THIN
+    from glidercli.logio.rerun.writer import RerunLog
+
+    t = np.concatenate([np.arange(20.0), [500.0], np.arange(1000.0, 1010.0), [2000.0]])
+    log = log_of([channel("temperature", t, 10.0 + t)], "measured", {})
+    entity, second = f"/{CHANNELS['temperature'].group}/temperature", 10**9
+    wanted = [(0, THIN), (500 * second, DOT), (500 * second + 1, THIN), (2000 * second, DOT)]
+    assert drawn(written(log, tmp_path), entity, "SeriesLines:widths") == wanted
+    for size in (1, 2, 3, 10):
+        path = tmp_path / f"{size}.rrd"
+        file = RerunLog(path)
+        pieces = list(log.pieces(size))
+        for piece in pieces:
+            file.add(piece)
+        file.close(pieces[-1])
+        assert drawn(path, entity, "SeriesLines:widths") == wanted
+    alone = written(log.sliced(START, START + 1), tmp_path, "one.rrd")
+    assert drawn(alone, entity, "SeriesLines:widths") == [(0, DOT)]
+
+
+@pytest.mark.parametrize("aspect", [1.3, 16 / 9])
+def test_surface_walls_and_bottom_are_all_in_the_picture(aspect: float) -> None:
+    rng = np.random.default_rng(2)
+    for _ in range(50):
+        size = 10.0 ** rng.uniform(0.0, 5.0, 3)
+        places = np.cumsum(rng.normal(size=(200, 3)), axis=0) * size / 10.0
+        places[:, 2] = np.abs(places[:, 2])
+        bottom = float(places[:, 2].max() * rng.uniform(1.0, 3.0))
+        sea = Sea.about(places, bottom, np.empty((0, 3)), 1.3)  # the overview's panel; at 16:9 it fills the window
+        found = {chunk.entity_path: chunk.to_record_batch() for chunk in sea.chunks}
+        parts = [
+            found[f"/world/{name}"].column("Mesh3D:vertex_positions").to_pylist()[0] for name in ("surface", "bottom")
+        ]
+        parts += found["/world/box"].column("LineStrips3D:strips").to_pylist()[0]
+        parts.append(found["/world/bottom/name"].column("Points3D:positions").to_pylist()[0])
+        eye, target = sea.camera
+        forward = (target - eye) / np.linalg.norm(target - eye)
+        right = np.cross(forward, [0.0, 0.0, -1.0])
+        right /= np.linalg.norm(right)
+        seen = np.concatenate(parts) * [1.0, 1.0, sea.exaggeration] - eye
+        half = np.tan(np.radians(27.5)) * (seen @ forward)  # Rerun's field of view is 55 deg high
+        assert (half > 0.0).all()
+        assert (np.abs(seen @ np.cross(right, forward)) <= half).all()
+        assert (np.abs(seen @ right) <= aspect * half).all()
+        assert found["/world/bottom/name"].column("Points3D:labels").to_pylist()[0] == [f"bottom, {bottom:g} m"]

@@ -1,9 +1,10 @@
-"""Positions that are no fixes: the place of absolute salinity, and of nothing else."""
+"""Positions that are no fixes: the place of absolute salinity, and the track of a log without attitude."""
 
 from __future__ import annotations
 
 import csv
 import gzip
+import shutil
 from pathlib import Path
 
 import gsw
@@ -91,6 +92,8 @@ def test_what_is_no_position_is_left_out_and_one_in_ten_minutes_is_kept():
     times = np.array([30, 0, 1, 2, NO_TIME // minute, 15, 16, 17]) * minute
     times[4] = NO_TIME
     found = whereabouts(times, np.array([3.0, 1, 1.1, 0, 5, nan, 95, 2]), np.array([-179.0, 179, 179, 0, 5, 2, 2, 181]))
+    assert found.time_ns.tolist() == [0, minute, 17 * minute, 30 * minute]
+    found = found.sparse
     assert found.time_ns.tolist() == [0, 17 * minute, 30 * minute]
     assert found.latitude.tolist() == [1.0, 2.0, 3.0]
     assert found.middle == (2.0, -179.0)
@@ -113,3 +116,55 @@ def test_positions_of_a_plain_table_that_are_no_fixes(tmp_path: Path):
     log = read([tmp_path / "dive.csv"]).log
     assert not {"latitude", "longitude"} & log.channels.keys()
     assert log["density"].values == pytest.approx(density_at(log, 16.0, 55.5), abs=1e-9)
+
+
+def on_the_ground(log, latitude, longitude):
+    """How far the track is from places, m, by the length of a degree at its latitude (0.1 % by these digits)."""
+    metres = 111_132.95 - 559.85 * np.cos(np.radians(2.0 * latitude)), 111_412.88 * np.cos(np.radians(latitude))
+    metres = metres[0], metres[1] - 93.5 * np.cos(np.radians(3.0 * latitude))
+    way = (latitude - latitude[0]) * metres[0].mean(), (longitude - longitude[0]) * metres[1].mean()
+    return np.hypot(log["north"].values - way[0], log["east"].values - way[1])
+
+
+def test_an_ioos_profile_is_drawn_through_its_positions(tmp_path: Path):
+    path = profile(tmp_path / "a.nc", read([ROOT / "logs/seaexplorer-sea035"]).log, slice(0, 200), 1)
+    log = read([path]).log
+    assert "latitude" not in log
+    with netCDF4.Dataset(path) as file:
+        latitude, longitude = file["lat"][:].data, file["lon"][:].data
+    assert log["north"].time_ns.tolist() == log["depth"].time_ns.tolist()
+    assert on_the_ground(log, latitude, longitude).max() < 0.002 * 15_000.0  # 0.1 deg each way is 15 km
+    assert log["down"].values.tolist() == log["depth"].values.tolist()
+    assert {log[name].origin for name in ("north", "east", "down")} == {"derived"}
+    assert "drawn through 200 recorded positions" in log.metadata["track_note"]
+
+
+def test_an_og1_mission_without_heading_is_drawn_through_its_positions(tmp_path: Path):
+    source = ROOT / "tests/data/netcdf/sg033_20100903T182416_first-rows.nc"
+    shutil.copy(source, tmp_path / "a.nc")
+    with netCDF4.Dataset(tmp_path / "a.nc", "a") as file:
+        file.renameVariable("HEADING", "UNTOLD")
+        file["UNTOLD"].standard_name = "untold"
+        latitude, longitude = (file[name][:].filled(np.nan) for name in ("LATITUDE", "LONGITUDE"))
+        times = file["TIME"][:].data
+    log = read([tmp_path / "a.nc"]).log
+    assert "no heading" in log.metadata["track_note"]
+    assert len(log["north"]) > 0.9 * len(log["depth"])
+    at = np.abs(times[:, np.newaxis] - log["north"].time_ns * 1e-9).argmin(axis=0)
+    assert on_the_ground(log, latitude[at], longitude[at]).max() < 20.0  # of some 5 km
+    assert len(log["latitude"]) == len(read([source]).log["latitude"])  # fixes alone
+
+
+def test_a_payload_alone_is_drawn_where_the_vehicle_took_itself_to_be():
+    log = read([SEA063 / "sea063.22.pld1.sub.120.gz"]).log
+    assert "reckoned by whoever told them" in log.metadata["track_note"]
+    assert len(log["north"]) == len(log["depth"])
+    both = read([SEA063 / "sea063.22.pld1.sub.120.gz", SEA063 / "sea063.22.gli.sub.120.gz"]).log
+    assert "dead reckoned" in both.metadata["track_note"]
+
+
+def test_order_of_files_with_and_without_attitude_changes_nothing():
+    files = [SEA063 / "sea063.22.pld1.sub.120.gz", SEA063 / "sea063.22.gli.sub.120.gz"]
+    one, other = read(files).log, read(files[::-1]).log
+    assert one["density"].values.tolist() == other["density"].values.tolist()
+    assert one.metadata == other.metadata

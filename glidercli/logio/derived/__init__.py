@@ -14,6 +14,7 @@ __all__ = ["with_derived"]
 def with_derived(log: Log, near: Whereabouts | None = None) -> Log:
     """The log with what can be had and is not there: depth, vertical speed, phase, salinity, density, track.
 
-    near : positions that are no fixes, for density and depth of a log without fixes.
+    near : positions that need be no fixes, for density and depth of a log without fixes, and for the track of one
+    without pitch or heading.
     """
-    return with_track(with_seawater(with_motion(log, near), near))
+    return with_track(with_seawater(with_motion(log, near), near), near)

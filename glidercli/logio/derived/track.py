@@ -1,10 +1,13 @@
-"""Where did it go under water? A dead-reckoned track in three dimensions, drawn through the GPS fixes.
+"""Where did it go under water? A track in three dimensions: dead-reckoned through the GPS fixes, else as positions say.
 
 Between samples the horizontal speed through water is |depth rate| / tan|pitch|: the path is taken to lie along the
 hull, the angle of attack (a few degrees) is left out. It is held at zero where pitch is below 5 deg or the depth rate
 below 0.02 m/s, since the quotient then says nothing, and at the surface. Where the log has speed through water, such as
 that of the flight model of a Seaglider's basestation, it is taken with the depth rate instead. What the integral along
 the heading misses at each next fix is made up for by closure.py. All of it is derived, not measured.
+
+Where pitch or heading is missing and the log has positions under water, interpolated or reckoned by whoever recorded
+them, the track goes through these, and nothing is added. They are no fixes, and are told as what they are.
 """
 
 from __future__ import annotations
@@ -17,9 +20,11 @@ from numpy.typing import NDArray
 from glidercli.channels import PHASES
 from glidercli.log import Channel, Log
 from glidercli.logio.derived.closure import Closure, Fixes, close
-from glidercli.logio.derived.motion import LONGEST_GAP
-from glidercli.logio.jumps import beyond
+from glidercli.logio.derived.motion import AFLOAT, LONGEST_GAP
+from glidercli.logio.jumps import CIRCLE, DRIFT, beyond
+from glidercli.logio.whereabouts import Whereabouts
 from glidercli.places import track_of_geodetic
+from glidercli.residuals import usual_gap
 from glidercli.units import DEGREE
 from glidercli.utc import to_second
 
@@ -33,20 +38,31 @@ LEAST_DEPTH_RATE = 0.02  # m/s
 SURFACE = float(PHASES.index("surface"))
 MOST_TOLD = 4
 """Closures told one by one in the note; more stand in the metadata alone."""
+HALF = 0.5
+"""Part of the time under water that positions must tell of for a track through them to show how it went."""
 
 
-def with_track(log: Log) -> Log:
-    """The log with derived north, east and down, m, where depth, pitch and heading are there; else as it is.
+def with_track(log: Log, near: Whereabouts | None = None) -> Log:
+    """The log with derived north, east and down, m, and the metadata ``track_note``: how, or why there is none.
+
+    A log without depth, or with a track of its own, stays as it is. near : positions that need be no fixes; a track
+    goes through them, or else through those of the log, where pitch or heading is missing.
+    """
+    if "north" in log or "depth" not in log or not len(log["depth"]):
+        return log
+    if len(log.together("depth", "pitch", "heading")[0]) > 1:
+        return _reckoned(log)
+    return _through_positions(log, near)
+
+
+def _reckoned(log: Log) -> Log:
+    """The log with a track from depth, pitch and heading.
 
     The origin is the first fix (metadata origin_latitude_deg, origin_longitude_deg), or the first sample without one.
     North and east have a sample at every fix, too. The metadata ``closures`` holds a JSON list, an entry for each dive
     between two fixes.
     """
-    if not {"depth", "pitch", "heading"} <= log.channels.keys() or "north" in log:
-        return log
     times, (z, theta, psi) = log.together("depth", "pitch", "heading")
-    if len(times) < 2:
-        return log
     steps = np.diff(times) * 1e-9
     rate = np.abs(np.diff(z)) / steps
     incline = np.abs(0.5 * (theta[1:] + theta[:-1]))
@@ -93,6 +109,57 @@ def with_track(log: Log) -> Log:
     return log.with_channels(*track).with_metadata(**place, track_note="; ".join(notes))
 
 
+def _through_positions(log: Log, near: Whereabouts | None) -> Log:
+    """The log with a track through positions at samples of depth; without one where they tell too little."""
+    lacking = [f"no {name}" for name in ("pitch", "heading") if name not in log]
+    why = f"the log has {' and '.join(lacking)}"
+    if not lacking:
+        why = "depth, pitch and heading have no two samples at one time"
+    depth = log["depth"]
+    if near is None:
+        fixed, (latitude, longitude) = log.together("latitude", "longitude")
+        near = Whereabouts(fixed, latitude, longitude)
+    times, rows, among = np.intersect1d(depth.time_ns, near.time_ns, assume_unique=True, return_indices=True)
+    z, latitude, longitude = depth.values[rows], near.latitude[among], near.longitude[among]
+    under = z >= AFLOAT
+    gap = max(LONGEST_GAP, usual_gap(depth))
+    whole = _lasts(depth.time_ns, depth.values >= AFLOAT, gap)
+    moved = np.append(True, (np.diff(latitude) != 0.0) | (np.diff(longitude) != 0.0))[: len(times)]
+    told = _lasts(times[moved], under[moved], gap)
+    if not whole or told < HALF * whole:
+        lack = "it has no position under water"
+        if under.any():
+            lack = (
+                f"its positions, at {int(under.sum())} samples of depth, go on for {told:.0f} of {whole:.0f} s under "
+                "water: too little to draw one through them"
+            )
+        return log.with_metadata(track_note=f"no track: {why}, and {lack}")
+    north, east = track_of_geodetic(latitude, longitude, latitude[0], longitude[0])
+    note = (
+        f"drawn through {len(times)} {'recorded' if log.origin == 'measured' else log.origin} positions, since {why}; "
+        "under water they are no GPS fixes, but interpolated or reckoned by whoever told them; nothing is interpolated "
+        "between them"
+    )
+    if left := len(depth) - len(times):
+        note += f", and {left} samples of depth without a position are left out"
+    if far := int((np.hypot(np.diff(north), np.diff(east)) > CIRCLE + DRIFT * 1e-9 * np.diff(times)).sum()):
+        note += f"; {far} steps between them are longer than {DRIFT:g} m/s and {CIRCLE:g} m allow"
+    track = {"north": north, "east": east, "down": z}
+    log = log.with_channels(*(Channel(name, times, values, "derived") for name, values in track.items()))
+    return log.with_metadata(**_place(latitude[0], longitude[0]), track_note=note)
+
+
+def _lasts(times: Times, under: NDArray[np.bool_], gap: float) -> float:
+    """How long samples were under water, s, without the time between two of them that are more than gap s apart."""
+    steps = np.diff(times) * 1e-9
+    return float(steps[under[1:] & under[:-1] & (steps <= gap)].sum())
+
+
+def _place(latitude: float, longitude: float) -> dict[str, str]:
+    """The origin of north and east, as metadata."""
+    return {"origin_latitude_deg": repr(float(latitude)), "origin_longitude_deg": repr(float(longitude))}
+
+
 def _speed(log: Log, at: Times) -> Array:
     """Speed through water, m/s, at times, UTC ns: linear between samples that are near, NaN elsewhere."""
     if "speed_through_water" not in log:
@@ -113,8 +180,7 @@ def _fixes(log: Log) -> tuple[Fixes | None, dict[str, str]]:
     if not len(times):
         return None, {}
     north, east = track_of_geodetic(lat, lon, lat[0], lon[0])
-    place = {"origin_latitude_deg": repr(float(lat[0])), "origin_longitude_deg": repr(float(lon[0]))}
-    return Fixes(times, north, east), place
+    return Fixes(times, north, east), _place(lat[0], lon[0])
 
 
 def _told(closures: list[Closure]) -> list[str]:

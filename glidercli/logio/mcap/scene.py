@@ -20,6 +20,7 @@ from glidercli.logio.mcap.file import Topic
 from glidercli.logio.mcap.latest import FOREVER, Latest, at_these, moving
 from glidercli.logio.mcap.messages import Array
 from glidercli.logio.mcap.shapes import Samples
+from glidercli.logio.stretches import Stretches
 from glidercli.logio.thinned import Thinned
 from glidercli.places import track_of_geodetic
 
@@ -52,6 +53,7 @@ class Scene:
         self._bounds = np.array([[np.inf] * 3, [-np.inf] * 3])
         self._level = 0.0  # of the sea surface in map_ned, m
         self._told: list[str] = []
+        self._stretches, self._on_map = Stretches(log, "down"), Stretches(log, "north")
         self._track, self._way, self._fixes, self._currents = (Thinned(MOST_POINTS) for _ in range(4))
 
     def topics(self, piece: Log) -> list[Topic]:
@@ -84,7 +86,8 @@ class Scene:
             return topics
         size = float(np.linalg.norm(self._bounds[1] - self._bounds[0])) if self._place.known else 0.0
         if self._track.count:
-            topics.append(still.track(self._track.rows(), self._track.count, log["north"].origin, self._start_ns))
+            way = self._track.rows(), self._track.count, log["north"].origin
+            topics.append(still.track(*way, self._stretches.told(), self._start_ns))
         if self._place.known:
             topics += still.surface(self._bounds, self._level, self._start_ns)
             if (depth := bottom(log)) is not None:
@@ -108,14 +111,17 @@ class Scene:
             said.append("no attitude in this log: the hull is drawn level, heading north")
         if self._currents.count:
             said.append(f"the arrow at the hull is the current, {shapes.ARROW_SCALE:.0f} m long for 1 m/s")
+        if gaps := self._stretches.told():
+            said.append(f"the track is broken at {gaps}")
         return [*said, *self._mass_notes, *self._told]
 
     def _keep(self, piece: Log, fixes: Samples) -> None:
         """Keep of a piece what the whole way is drawn from."""
         times, track = piece.together(*TRACK)
         codes = self._phase.at(times, (np.nan,))[0]
-        self._track.add(np.column_stack([*track, codes, times]))
-        self._way.add(np.stack(piece.together(*TRACK[:2])[1], axis=-1))
+        self._track.add(np.column_stack([*track, codes, times, self._stretches.of(times)]))
+        level_ns, level = piece.together(*TRACK[:2])
+        self._way.add(np.column_stack([*level, self._on_map.of(level_ns)]))
         self._fixes.add(np.stack(fixes[1], axis=-1))
         places = np.stack(_place(piece)[1], axis=-1)
         if len(places):

@@ -80,25 +80,29 @@ def fixes(found: Samples, altitude: Array) -> Table:
 def map_track(log: Log, way: Array, fixed: Array, time_ns: int) -> list[Messages]:
     """/map/track: the whole track as GeoJSON, from north and east about the known origin, else from the fixes.
 
-    way : (n, 2) north and east, m. fixed : (n, 2) latitude and longitude, deg.
+    way : (n, 3) north and east, m, and the number of the stretch; the line is broken between stretches. fixed : (n, 2)
+    latitude and longitude, deg.
     """
     from foxglove_schemas_protobuf.GeoJSON_pb2 import GeoJSON
 
     about = origin(log)
     if about is not None and len(way):
         latitude, longitude = geodetic_of_track(way[:, 0], way[:, 1], *about)
-        kind = log["north"].origin
+        kind, stretches = log["north"].origin, way[:, 2]
     elif len(fixed):
         latitude, longitude = fixed.T
-        kind = log["latitude"].origin
+        kind, stretches = log["latitude"].origin, np.zeros(len(fixed))
     else:
         return []
     line = np.stack([longitude, latitude], axis=-1)
-    points = line[np.isfinite(line).all(axis=-1)]
+    finite = np.isfinite(line).all(axis=-1)
+    points = line[finite]
     if not len(points):
         return []
-    legs = np.split(points, np.flatnonzero(np.abs(np.diff(points[:, 0])) > 180.0) + 1)  # it goes on at 180 degrees
-    if lines := [leg.tolist() for leg in legs if len(leg) > 1]:
+    parted = np.diff(stretches[finite]) != 0.0
+    parted |= np.abs(np.diff(points[:, 0])) > 180.0  # it goes on at 180 degrees
+    parts = np.split(points, np.flatnonzero(parted) + 1)
+    if lines := [part.tolist() for part in parts if len(part) > 1]:
         geometry: dict[str, Any] = {"type": "MultiLineString", "coordinates": lines}
     else:
         geometry = {"type": "Point", "coordinates": points[0].tolist()}

@@ -26,6 +26,7 @@ from glidercli.logio.mcap.primitives import (
     text,
 )  # fmt: skip
 from glidercli.logio.round_steps import nice
+from glidercli.logio.stretches import alone
 
 __all__ = ["bottom", "current_average", "current_profile", "fix_marks", "surface", "track"]
 
@@ -53,12 +54,13 @@ PHASE_COLOURS: dict[str, Colour] = {
 }  # fmt: skip
 
 
-def track(rows: Array, count: int, origin: str, time_ns: int) -> Messages:
-    """/viz/track: the whole way as one line, in the colours of its phases, else of depth; its two ends are named.
+def track(rows: Array, count: int, origin: str, gaps: str, time_ns: int) -> Messages:
+    """/viz/track: the whole way, a line for each stretch, in the colours of its phases, else of depth; ends are named.
 
-    rows : (n, 4 or more) of the ``count`` samples: north, east, down, m, and the phase's code, NaN where there is none.
+    rows : (n, 6) of the ``count`` samples: north, east, down, m, the phase's code, NaN where there is none, UTC ns, and
+    the number of the stretch; one of a single row is a ball. gaps : those between stretches in words, "" without one.
     """
-    places, codes = rows[:, :3], rows[:, 3]
+    places, codes, stretches = rows[:, :3], rows[:, 3], rows[:, 5]
     if np.isin(codes, np.arange(len(PHASES))).all():
         palette = [colour(PHASE_COLOURS[name]) for name in PHASES]
         chosen, meaning = (
@@ -70,10 +72,14 @@ def track(rows: Array, count: int, origin: str, time_ns: int) -> Messages:
         deepest = max(float(places[:, 2].max()), 1.0)
         chosen = np.clip(places[:, 2] / deepest * 31.0, 0.0, 31.0).astype(np.int64)
         meaning = f"by depth, light at the surface, dark at {deepest:.0f} m"
-    way = {**line(places, WHITE), "colors": [palette[i] for i in chosen.tolist()]}
+    painted = [palette[i] for i in chosen.tolist()]
+    edges = [0, *np.flatnonzero(np.diff(stretches)) + 1, len(rows)]
+    ways = [{**line(places[a:b], WHITE), "colors": painted[a:b]} for a, b in itertools.pairwise(edges) if b > a + 1]
+    size = point(*[max(0.003 * float(np.linalg.norm(np.ptp(places, axis=0))), 0.5)] * 3)
+    balls = [{"pose": pose(*places[i].tolist()), "size": size, "color": painted[i]} for i in alone(stretches).tolist()]
     ends: list[Any] = [text("start", GREEN, *places[0].tolist()), text("end", ORANGE, *places[-1].tolist())]
-    notes = {"points": f"{len(places)} of {count}", "origin": origin, "colours": meaning}
-    content = scene(time_ns, NED, "track", notes, lines=[way], texts=ends if len(places) > 1 else ends[:1])
+    notes = {"points": f"{len(places)} of {count}", "origin": origin, "colours": meaning, "broken at": gaps or "no gap"}
+    content = scene(time_ns, NED, "track", notes, lines=ways, spheres=balls, texts=ends[: len(places)])
     return single("/viz/track", time_ns, content)
 
 

@@ -50,7 +50,7 @@ class Positions:
 class Rows:
     """The rows of a file: their times, values by channel, positions, and what else is told of them.
 
-    near : positions that are no fixes, for absolute salinity alone. faults : variables that cannot be read, and why.
+    near : positions that need be no fixes. faults : variables that cannot be read, and why.
     """
 
     time_ns: Times

@@ -82,7 +82,7 @@ class Beside:
 
         notes = ["Depth is plotted negative down; plots join samples by straight lines, not across gaps."]
         notes.append("Elapsed counts from the first sample of all.")
-        chunks = [header(log, self._zero_ns)]
+        chunks = [header(log, self._zero_ns), *(chunk for plots in self._plots for chunk in plots.ends())]
         for side, scene in zip(self._sides, self._scenes, strict=True):
             chunks += texts(side.log.events, self._zero_ns, f"{side.place}/events", f"{side.short}: ")
             chunks += scene.rail()
@@ -90,7 +90,7 @@ class Beside:
         sea = self._surroundings(chunks, notes)
         told = [scene.fixes(side.log) for side, scene in zip(self._sides, self._scenes, strict=True)]
         mapped_lines = [
-            Line(scene.map, scene.on_map(), mapped, side.colour, side.colour)
+            Line(scene.map, *scene.on_map(), mapped, side.colour, side.colour)
             for side, scene, (_, mapped) in zip(self._sides, self._scenes, told, strict=True)
         ]
         zoom = None
@@ -122,9 +122,11 @@ class Beside:
         sea = Sea.about(places, max(depths, default=None), np.empty((0, 3)), aspect)
         chunks += [row("/world", rr.Transform3D(scale=[1.0, 1.0, sea.exaggeration])), *sea.chunks]
         notes += sea.notes
-        for side, rows in zip(self._sides, tracks, strict=True):
+        for side, scene, rows in zip(self._sides, self._scenes, tracks, strict=True):
             if len(rows) > 1:
-                chunks += still.track(rows, f"/world{side.place}", side.colour)[0]
+                drawn, told = still.track(rows, f"/world{side.place}", scene.stretches.told(), side.colour)
+                chunks += drawn
+                notes += [f"{side.short}: {note}" for note in told]
         if len(tracks) > 1 and any(origin(one) is None for one in self._logs):
             notes.append("Not every log tells where on the globe it was: each track is drawn about its own origin.")
         for number, apart in self._apart.items():

@@ -27,10 +27,14 @@ LEAST = 5e-4
 
 
 class Line(NamedTuple):
-    """What one log shows on a map. track : (n, 2), fixes : (m, 2), latitude and longitude, deg."""
+    """What one log shows on a map. track, fixes : (n, 2) and (m, 2), latitude and longitude, deg.
+
+    stretches : (n,), which stretch of the track each place is in; the line is broken between them.
+    """
 
     place: str
     track: Array
+    stretches: Array
     fixes: Array
     colour: look.Colour
     fix_colour: look.Colour
@@ -50,7 +54,9 @@ def chart(lines: list[Line]) -> tuple[list[Chunk], float]:
     chunks: list[Chunk] = []
     for line in lines:
         if len(line.track) > 1:
-            strips = rr.GeoLineStrings(lat_lon=[line.track], colors=line.colour, radii=rr.Radius.ui_points(1.5))
+            parts = np.split(line.track, np.flatnonzero(np.diff(line.stretches)) + 1)
+            parts = [part for part in parts if len(part) > 1]
+            strips = rr.GeoLineStrings(lat_lon=parts, colors=line.colour, radii=rr.Radius.ui_points(1.5))
             chunks.append(row(f"{line.place}/track", strips))
         if len(line.fixes):
             points = rr.GeoPoints(lat_lon=line.fixes, colors=line.fix_colour, radii=rr.Radius.ui_points(4))

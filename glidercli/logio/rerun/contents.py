@@ -74,7 +74,7 @@ class Contents:
         whole = dataclasses.replace(log, channels=self._first.channels)
         notes = ["Depth is plotted negative down; plots join samples by straight lines, not across gaps."]
         told = texts(log.events, self._zero_ns) if events else []
-        chunks = [header(log, self._zero_ns), *told, *self._scene.rail()]
+        chunks = [header(log, self._zero_ns), *told, *self._scene.rail(), *([] if grows else self._plots.ends())]
         places, mapped = self._scene.fixes(log)
         sea = None
         if self._scene.track.count > 1:
@@ -90,7 +90,7 @@ class Contents:
         if water:
             notes.append("Sections: each sample of the water at the depth, and the place, of the track at its time.")
         zoom = None
-        line = Line("/map", self._scene.on_map(), mapped, look.ORANGE, look.VIOLET)
+        line = Line("/map", *self._scene.on_map(), mapped, look.ORANGE, look.VIOLET)
         if len(line.track) or len(line.fixes):
             more, zoom = chart([line])
             chunks += more
@@ -116,7 +116,7 @@ class Contents:
         scale = rr.Transform3D(scale=[1.0, 1.0, sea.exaggeration])
         chunks.append(row("/world", scale))
         arrows = still.arrows(self._scene.currents.rows(), sea.extent, "/world")
-        for drawn in (still.track(rows, "/world"), (sea.chunks, sea.notes), arrows):
+        for drawn in (still.track(rows, "/world", self._scene.stretches.told()), (sea.chunks, sea.notes), arrows):
             chunks += drawn[0]
             notes += drawn[1]
         return sea

@@ -84,7 +84,7 @@ def _compass(vehicle: str, length: float) -> Iterator[Chunk]:
     ticks = [np.stack([point, 1.06 * point]) for point in ring[:-1:6]]
     style = dict[str, Any](colors=look.GREY, radii=rr.Radius.ui_points(0.7))
     yield row(f"{vehicle}/compass", rr.LineStrips3D([ring, *ticks], **style))
-    names = rr.Points3D(1.18 * ring[:-1:18], labels=list("NESW"), show_labels=True, **style)
+    names = rr.Points3D(1.18 * ring[:-1:18], labels=list("NESW"), **look.NAMED)
     yield row(f"{vehicle}/compass/names", names)
 
 

@@ -19,6 +19,7 @@ from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun.chart import on_chart
 from glidercli.logio.rerun.hull import hull, rail
 from glidercli.logio.rerun.settling import columns, row
+from glidercli.logio.stretches import Stretches
 from glidercli.logio.thinned import Thinned
 from glidercli.places import geodetic_of_track, track_of_geodetic
 
@@ -41,8 +42,9 @@ class Scene:
 
     log : the first piece; what has samples there is what can come. zero_ns : where elapsed begins, UTC ns.
     world : the entity. about : latitude and longitude, deg, that places are drawn about; default: the log's origin.
-    has_hull : whether the attitude is known. track : Thinned rows of north, east, down, m, and the phase's code.
-    currents : Thinned rows of place and current, north and east. positions : Thinned rows of latitude and longitude.
+    has_hull : whether the attitude is known. track : Thinned rows of north, east, down, m, the phase's code, and the
+    number of the stretch. stretches : of the track. currents : Thinned rows of place and current, north and east.
+    positions : Thinned rows of latitude and longitude.
     """
 
     def __init__(
@@ -60,6 +62,7 @@ class Scene:
         self._names = ("north", "east", "down" if "down" in log else "depth")
         self.has_hull = len(log.together(*ANGLES)[0]) > 0
         self.track, self.positions, self.currents = (Thinned(MOST_POINTS) for _ in range(3))
+        self.stretches = Stretches(log, self._names[2])
         self._phase: float | None = None
         self._held: tuple[Times, Array] | None = None
         self._slid = (np.inf, -np.inf)
@@ -143,10 +146,12 @@ class Scene:
         turned = about[1] + 180.0 - np.mod(180.0 - (rows[:, 1] - about[1]), 360.0)
         return np.stack([north, east, 0.0 * north], axis=-1), np.stack([rows[:, 0], turned], axis=-1)
 
-    def on_map(self) -> Array:
-        """The track on the map, (n, 2), deg; none without an origin."""
+    def on_map(self) -> tuple[Array, Array]:
+        """The track on the map, (n, 2), deg, and the stretch that each place is in, (n,); none without an origin."""
         rows = self.track.rows()
-        return on_chart(rows[:, 0], rows[:, 1], self._about) if self._about and len(rows) else np.empty((0, 2))
+        if not self._about or not len(rows):
+            return np.empty((0, 2)), np.empty(0)
+        return on_chart(rows[:, 0], rows[:, 1], self._about), rows[:, 4]
 
     def _over(self, entity: str, times: Times, values: Any) -> Chunk:
         return columns(entity, self._zero_ns, times, values)
@@ -160,7 +165,7 @@ class Scene:
             first = phases.values[0] if self._phase is None else self._phase
             codes = np.where(at < 0, first, phases.values[np.maximum(at, 0)])
             self._phase = float(phases.values[-1])
-        self.track.add(np.column_stack([places, codes]))
+        self.track.add(np.column_stack([places, codes, self.stretches.of(times)]))
         self.positions.add(np.stack(piece.together("latitude", "longitude")[1], axis=-1))
         told, (north, east) = piece.together("current_north", "current_east")
         if self._held is not None:

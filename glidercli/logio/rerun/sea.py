@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,8 @@ Camera = tuple[Array, Array]
 
 FLAT = 0.45
 """Depth is drawn at least so large beside the longer side of the track; otherwise it is exaggerated."""
+NAME_INSIDE = 0.2
+"""Part of the bottom's diagonal from the corner by the eye to its name, so that the name is in the picture."""
 VIEW, BESIDE_BAR = np.radians(55.0), 0.85
 """Height of Rerun's field of view, rad; how much of a panel's width a colour bar beside it leaves."""
 
@@ -75,7 +77,7 @@ class Sea(NamedTuple):
             notes.append(f"Depth is drawn {exaggeration:g} times too large in the overview; the hull is not.")
         if bottom is not None:
             notes.append(f"Brown: the bottom that the log tells, {bottom:g} m deep.")
-        cameras = [_camera(box, places, exaggeration, width) for width in (aspect, BESIDE_BAR * aspect)]
+        cameras = [_camera(box, places, bottom, exaggeration, width) for width in (aspect, BESIDE_BAR * aspect)]
         return cls(chunks, notes, exaggeration, spacing, extent, *cameras)
 
 
@@ -143,9 +145,10 @@ def _surface(box: _Box, spacing: float) -> list[Chunk]:
     grid = rr.LineStrips3D(lines, colors=look.SEA_LINES, radii=rr.Radius.ui_points(0.5))
     foot = (box.south, box.west, 0.0)
     way = (min(1.5 * spacing, box.north - box.south), 0.0, 0.0)
-    style = dict[str, Any](colors=look.GREY, radii=rr.Radius.ui_points(1.5))
-    arrow = rr.Arrows3D(origins=[foot], vectors=[way], labels=["N"], show_labels=True, **style)
-    return [row("/world/surface", plane), row("/world/surface/grid", grid), row("/world/surface/north", arrow)]
+    arrow = rr.Arrows3D(origins=[foot], vectors=[way], colors=look.GREY, radii=rr.Radius.ui_points(1.5))
+    name = rr.Points3D([(box.south + 0.5 * way[0], box.west, 0.0)], labels=["N"], **look.NAMED)
+    entities = {"": plane, "/grid": grid, "/north": arrow, "/north/name": name}
+    return [row(f"/world/surface{part}", drawn) for part, drawn in entities.items()]
 
 
 def _walls(box: _Box, deepest: float, exaggeration: float, places: Array) -> list[Chunk]:
@@ -168,8 +171,7 @@ def _walls(box: _Box, deepest: float, exaggeration: float, places: Array) -> lis
         return float(np.linalg.norm(track[:, np.newaxis] - names, axis=-1).min())
 
     post = max((edge[0], edge[2]), key=clear)
-    style = dict[str, Any](show_labels=True, radii=rr.Radius.ui_points(0.1), colors=look.GREY)
-    names = rr.Points3D([(*post, z) for z in depths], labels=[f"{z:g} m" for z in depths], **style)
+    names = rr.Points3D([(*post, z) for z in depths], labels=[f"{z:g} m" for z in depths], **look.NAMED)
     return [row("/world/box", lines), row("/world/box/names", names)]
 
 
@@ -180,13 +182,19 @@ def _bottom(box: _Box, bottom: float | None) -> list[Chunk]:
         return []
     corners = [(n, e, bottom) for n, e in box.surface]
     plane = rr.Mesh3D(vertex_positions=corners, triangle_indices=[[0, 1, 2], [0, 2, 3]], albedo_factor=look.SEABED)
-    return [row("/world/bottom", plane)]
+    near, far = np.array(box.near), np.array(box.far)
+    label = rr.Points3D(
+        [(*(near + NAME_INSIDE * (far - near)), bottom)], labels=[f"bottom, {bottom:g} m"], **look.NAMED
+    )
+    return [row("/world/bottom", plane), row("/world/bottom/name", label)]
 
 
-def _camera(box: _Box, places: Array, exaggeration: float, aspect: float) -> Camera:
-    """The closest eye in the box's line of sight that sees surface, walls and track."""
+def _camera(box: _Box, places: Array, bottom: float | None, exaggeration: float, aspect: float) -> Camera:
+    """The closest eye in the box's line of sight that sees surface, walls, track, and the bottom if it is known."""
     surface = [(n, e, 0.0) for n, e in box.surface]
     foot = [(n, e, box.floor) for n, e in ((box.far[0], box.near[1]), box.far, (box.near[0], box.far[1]))]
+    if bottom is not None:
+        foot += [(*box.near, bottom)]
     some = places[:: max(1, len(places) // 300)]
     drawn = np.concatenate([np.array(surface + foot), some]) * [1.0, 1.0, exaggeration]
     forward = -box.sight

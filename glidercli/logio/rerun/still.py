@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun.settling import row
+from glidercli.logio.stretches import alone
 
 __all__ = ["Drawn", "arrows", "fixes", "track"]
 
@@ -22,40 +23,50 @@ Drawn = tuple[list[Any], list[str]]
 
 ARROWS = 60
 """Arrows of current along a track, at most."""
+APART = 0.15
+"""Part of a track's size between its ends for two names: one is some 60 px wide in a panel of 500 px."""
 
 
-def track(rows: Array, world: str, colour: look.Colour | None = None) -> Drawn:
+def track(rows: Array, world: str, gaps: str, colour: look.Colour | None = None) -> Drawn:
     """The track in the colours of its phases, or of depth, or in one; its ends; a marker at the vehicle's place.
 
-    rows : (n, 4), north, east, down, m, and the code of the phase, NaN where there is none. world : entity above all.
+    rows : (n, 5), north, east, down, m, the code of the phase, NaN where there is none, and the number of the stretch;
+    the line is broken between stretches, and one of a single row is a point. world : entity above all. gaps : those
+    between stretches in words, "" without one.
     """
     import rerun as rr
 
-    places = rows[:, :3]
+    places, stretches = rows[:, :3], rows[:, 4]
     if colour is None:
         codes, colours, note = _track_colours(rows)
     else:
         codes, colours, note = np.zeros(len(rows), np.int64), [colour], ""
-    edges = [0, *(np.flatnonzero(np.diff(codes)) + 1), len(codes) - 1]
-    pieces = [(a, b) for a, b in itertools.pairwise(edges) if b > a]
-    strips, paint = [places[a : b + 1] for a, b in pieces], [colours[codes[a]] for a, _ in pieces]
+    breaks = np.flatnonzero(np.diff(stretches)) + 1
+    edges = [0, *np.flatnonzero((np.diff(codes) != 0) | (np.diff(stretches) != 0)) + 1, len(codes)]
+    lasts = {*breaks.tolist(), len(codes)}  # of stretches; elsewhere a piece goes on to the first row of the next
+    pieces = [(a, b if b in lasts else b + 1) for a, b in itertools.pairwise(edges)]
+    pieces = [(a, b) for a, b in pieces if b > a + 1]
+    strips, paint = [places[a:b] for a, b in pieces], [colours[codes[a]] for a, _ in pieces]
+    whole = [stretch for stretch in np.split(places, breaks) if len(stretch) > 1]
+    single = alone(stretches)
+    dots = rr.Points3D(places[single], colors=[colours[codes[i]] for i in single], radii=rr.Radius.ui_points(2.0))
     extent = float(np.linalg.norm(np.ptp(places, axis=0)))
-    thin = rr.LineStrips3D([places], colors=look.PATH, radii=rr.Radius.ui_points(0.7))
+    thin = rr.LineStrips3D(whole, colors=look.PATH, radii=rr.Radius.ui_points(0.7))
     chunks = [
-        row(f"{world}/track", rr.LineStrips3D(strips, colors=paint, radii=rr.Radius.ui_points(1.5))),
+        row(f"{world}/track", rr.LineStrips3D(strips, colors=paint, radii=rr.Radius.ui_points(1.5)), dots),
         row(f"{world}/path", thin),  # beside the hull, where the track would hide it
     ]
     marker: dict[str, Any] = {"radii": rr.Radius.ui_points(7), "colors": colour or look.GOLD}
     chunks.append(row(f"{world}/vehicle/marker", rr.Points3D([[0, 0, 0]], **marker)))
     if colour is None:
-        near = float(np.linalg.norm(places[0] - places[-1])) < 0.1 * extent
-        ends: dict[str, Any] = {"labels": ["start", "end"], "colors": [look.GREEN, look.RED]}
-        if near:
-            ends["labels"] = ["start and end", ""]
-        ends |= {"show_labels": True, "radii": rr.Radius.ui_points(5)}
-        chunks.append(row(f"{world}/ends", rr.Points3D(places[[0, -1]], **ends)))
+        near = float(np.linalg.norm(places[0] - places[-1])) < APART * extent
+        both, words = places[[0, -1]], ["start and end", ""] if near else ["start", "end"]
+        balls = rr.Points3D(both, colors=[look.GREEN, look.RED], radii=rr.Radius.ui_points(5))
+        chunks.append(row(f"{world}/ends", balls))
+        chunks.append(row(f"{world}/ends/names", rr.Points3D(both, labels=words, **look.NAMED)))
         note += " It starts at the green point and ends at the red one; the gold one is the vehicle."
-    return chunks, [note] if note else []
+    notes = [note] if note else []
+    return chunks, [*notes, f"The track is broken at {gaps}."] if gaps else notes
 
 
 def _track_colours(rows: Array) -> tuple[NDArray[np.int64], list[look.Colour], str]:
