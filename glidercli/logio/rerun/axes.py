@@ -27,12 +27,14 @@ NARROWEST = {
 """Of each unit of the channel table, what an axis shows at least: some ten times what is told apart in it."""
 NARROWEST_OF = {"mass_position": 0.002, "latitude": 2e-4, "longitude": 2e-4}
 """Of channels that vary by less than others of their unit: m, deg, deg."""
-CROWDED = 6.0
-"""Marks beyond which their labels have no room in a low panel, so that those of the next power of ten count."""
-FURTHEST = 0.5
+HEIGHT, FRAME, LABEL = 700.0, 45.0, 22.0
+"""px in a window of 800: of a column of panels, of each one's title and times, and of a label with its distance."""
+FURTHEST = 0.7
 """Part of what is drawn by which an axis is stretched to a mark, at most."""
 ROOM = 0.06
 """Part of an axis that is left free at each end: half the height of a label in a panel of 120 px."""
+CLEAR = 0.8
+"""Part of that room that a mark keeps from the end."""
 
 
 def extent(values: NDArray[np.float64]) -> Extent:
@@ -46,8 +48,12 @@ def joined(extents: Iterable[Extent]) -> Extent:
     return min(lows), max(highs)
 
 
-def axis(names: Sequence[str], extents: Mapping[str, Extent]) -> Extent | None:
-    """The ends of the axis of a plot of channels, or of their differences; None where their extents are not known."""
+def axis(names: Sequence[str], extents: Mapping[str, Extent], panels: int) -> Extent | None:
+    """The ends of the axis of a plot of channels, or of their differences; None where their extents are not known.
+
+    panels : how many such plots stand above one another. Where marks have no room for labels those of the next power of
+    ten count.
+    """
     known = [extents[name] for name in names if name in extents]
     if not known:
         return None
@@ -56,11 +62,19 @@ def axis(names: Sequence[str], extents: Mapping[str, Extent]) -> Extent | None:
     if high - low < least:
         low, high = 0.5 * (low + high - least), 0.5 * (low + high + least)
     step = 10.0 ** math.floor(math.log10(high - low))
-    if high - low > CROWDED * step:
+    if high - low > (HEIGHT / panels - FRAME) / LABEL * step:
         step *= 10.0
     low, high = _to_two_marks(low, high, step)
     room = ROOM * (high - low)
-    return low - room, high + room
+    return -_clear(-low + room, step, room), _clear(high + room, step, room)
+
+
+def _clear(end: float, step: float, room: float) -> float:
+    """The upper end of an axis, further out where the label of the mark below it would be cut; also of finer marks."""
+    for one in (step, 0.1 * step):
+        if end - math.floor(end / one + 1e-9) * one < CLEAR * room and one > room:
+            return math.floor(end / one + 1e-9) * one + CLEAR * room
+    return end
 
 
 def _to_two_marks(low: float, high: float, step: float) -> Extent:

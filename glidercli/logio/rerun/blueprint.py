@@ -53,17 +53,12 @@ def blueprint(log: Log, shown: Shown) -> Any:
     if shown.has_hull:
         path = "/world/path" if shown.sea is not None else None
         left.append(panels.hull_view(_hull_title(log), "/world/vehicle", hull_size(log)[0], path))
-    plots: dict[str, list[Any]] = {}
-    for tab, title, unit, names in panels.PLOTS:
-        if present := [name for name in names if name in log]:
-            words = panels.with_unit(title, unit, present, log)
-            if present == ["depth"] and shown.phases:
-                words = f"depth, m: {_words_of(shown.phases)}"
-            contents = [f"/{CHANNELS[name].group}/{name}" for name in present]
-            plots.setdefault(tab, []).append(panels.over_time(words, contents, axis(present, shown.extents)))
+    plots = {tab: _plots(tab, log, shown) for tab in dict.fromkeys(tab for tab, *_ in panels.PLOTS)}
     flight = plots.pop("Flight", [])
     tabs = {tab: plots.pop(tab, []) for tab in ("Actuators", "Sections", "CTD", "Map", "Current", "Motion")}
-    tabs["Sections"] = [_section(section, axis(["depth"], shown.extents)) for section in shown.sections]
+    tabs["Sections"] = [
+        _section(section, axis(["depth"], shown.extents, len(shown.sections))) for section in shown.sections
+    ]
     if shown.zoom is not None:
         title = "track and fixes; map from the network"
         tabs["Map"] = [rrb.MapView(origin="/map", zoom=shown.zoom, name=title)]
@@ -75,6 +70,22 @@ def blueprint(log: Log, shown: Shown) -> Any:
     shares = panels.LEFT[len(left)] + [3.8] * bool(flight) + [4.1]
     whole = rrb.Horizontal(*columns, column_shares=shares)
     return rrb.Blueprint(whole, panels.clock(log, shown.span_ns), *panels.hidden())
+
+
+def _plots(tab: str, log: Log, shown: Shown) -> list[Any]:
+    """The plots over time of a tab that the log has channels for."""
+    held = [
+        (title, unit, [name for name in names if name in log]) for of, title, unit, names in panels.PLOTS if of == tab
+    ]
+    held = [one for one in held if one[2]]
+    views = []
+    for title, unit, present in held:
+        words = panels.with_unit(title, unit, present, log)
+        if present == ["depth"] and shown.phases:
+            words = f"depth, m: {_words_of(shown.phases)}"
+        contents = [f"/{CHANNELS[name].group}/{name}" for name in present]
+        views.append(panels.over_time(words, contents, axis(present, shown.extents, len(held))))
+    return views
 
 
 def _words_of(phases: Sequence[str]) -> str:

@@ -55,7 +55,7 @@ COLOURS = {
 }
 """Of each channel's line."""
 LEFT: tuple[list[float], ...] = ([], [6.0], [4.6])
-ASPECT = (0.0, 0.8, 1.3)
+ASPECT = (0.0, 0.8, 1.0)
 """Share in the width of as many panels in three dimensions, and the width to height of the upper one."""
 WORDS = {"vertical_speed": "sinking", "speed_through_water": "speed in water"}
 """What channels are called where their own name is long."""

@@ -6,7 +6,7 @@ that are no gap. Where they are unknown nothing is drawn.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -152,7 +152,6 @@ def _key(section: Section, scale: str, low: float, high: float) -> list[Chunk]:
     labels = [*(f"{mark:.{digits}f}" for mark in marks), unit_of(section.name)]
     places = [(WIDE + 6.0 + 4.0 * len(word), height - LIFT) for word, height in zip(labels, heights, strict=False)]
     places.append((WIDE / 2 + 14.0, -22.0 - LIFT))
-    style = dict[str, Any](show_labels=True, radii=rr.Radius.ui_points(0.1), colors=look.TEXT)
     ticks = rr.LineStrips2D(
         [[(WIDE, height), (WIDE + 5.0, height)] for height in heights],
         colors=look.TEXT, radii=rr.Radius.ui_points(0.6),
@@ -160,5 +159,5 @@ def _key(section: Section, scale: str, low: float, high: float) -> list[Chunk]:
     return [
         row(f"{section.key}/bar", rr.Image(bar)),
         row(f"{section.key}/ticks", ticks),
-        row(f"{section.key}/names", rr.Points2D(places, labels=labels, **style)),
+        row(f"{section.key}/names", rr.Points2D(places, labels=labels, **look.NAMED)),
     ]

@@ -83,15 +83,18 @@ def side_by_side(
         left.append(rrb.Vertical(*hulls))
     present = [name for name in FIRST if any(name in side.log for side in sides)]
     shown, others = present[:MOST], present[MOST:]
-    flight = [_overlaid(name, sides, axis([name], extents), name == shown[0]) for name in shown]
+    flight = [_overlaid(name, sides, axis([name], extents, len(shown)), name == shown[0]) for name in shown]
     differences = _differences(pairs)
     tabs: dict[str, list[Any]] = {"Differences": [rrb.Tabs(*differences, active_tab=0)]} if differences else {}
-    tabs["Speed"] = [_overlaid(name, sides, axis([name], extents), name == others[0]) for name in others]
+    tabs["Speed"] = [_overlaid(name, sides, axis([name], extents, len(others)), name == others[0]) for name in others]
     for tab, *_, names in panels.PLOTS:
         if tab != "Flight":
             present = [name for name in names if any(name in side.log for side in sides)]
             views = tabs.setdefault(tab, [])
-            views += [_overlaid(one, sides, axis([one], extents), not views and one == present[0]) for one in present]
+            views += [
+                _overlaid(one, sides, axis([one], extents, len(present)), not views and one == present[0])
+                for one in present
+            ]
     if zoom is not None:
         tabs["Map"] = [rrb.MapView(origin="/map", zoom=zoom, name="tracks and fixes; map from the network")]
     tabs |= panels.told([f"{side.place}/events" for side in sides if side.log.events])
@@ -153,5 +156,5 @@ def _difference(name: str, found: Sequence[tuple[Pair, Difference]], pairs: Sequ
     which = pairs[0].title if len(pairs) == 1 and first else "difference"
     sign = " (deeper +)" if name in ("depth", "down") else ""
     title = f"{name.replace('_', ' ')}: {which}{sign}, {panels.unit_of(name)} (rms {rms}){zero}"
-    values = axis([name], {name: joined(extent(one.values) for _, one in found)})
+    values = axis([name], {name: joined(extent(one.values) for _, one in found)}, MOST)
     return panels.over_time(title, contents, values, len(pairs) > 1 and first)
