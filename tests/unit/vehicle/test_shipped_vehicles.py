@@ -138,7 +138,7 @@ def test_the_slocum_glides_by_the_published_formula() -> None:
 @pytest.mark.parametrize(
     ("name", "net", "pitch", "low", "high"),
     [
-        ("seaglider", 0.154, -20.0, 0.20, 0.30),  # 150 cm3; 20 to 30 cm/s is what operators of Seagliders state
+        ("seaglider", 0.154, -20.0, 0.20, 0.30),  # 150 cm3; 20 to 30 cm/s, operators of Seagliders (cigom.org)
         ("slocum", 0.231, -26.0, 0.25, 0.35),  # all of comet's piston; 0.35 m/s at most (BCO-DMO, instrument 863521)
         (
             "seaexplorer",
