@@ -115,13 +115,13 @@ def plan(mission: Mission, path: Path, vehicle: Vehicle, p: Parameters) -> Plan:
 
 
 def _disordered(d: Drives) -> list[str]:
-    """Faults of limits that leave nothing between them."""
+    """Faults of limits that leave nothing between them; a rotation may be fixed, as a Slocum's."""
     pairs = {
-        "mass_position_min_m and mass_position_max_m": (d.rrx_min, d.rrx_max),
-        "mass_rotation_min_deg and mass_rotation_max_deg": (d.gamma_min, d.gamma_max),
-        "net_buoyancy_min_kg and net_buoyancy_max_kg": (d.mb_min, d.mb_max),
+        "mass_position_min_m and mass_position_max_m must increase": d.rrx_min < d.rrx_max,
+        "mass_rotation_min_deg and mass_rotation_max_deg must not decrease": d.gamma_min <= d.gamma_max,
+        "net_buoyancy_min_kg and net_buoyancy_max_kg must increase": d.mb_min < d.mb_max,
     }
-    return [f"actuators: {names} must increase" for names, (least, most) in pairs.items() if not least < most]
+    return [f"actuators: {fault}" for fault, good in pairs.items() if not good]
 
 
 def balanced_position(pitch: float, p: Parameters) -> float:
@@ -197,6 +197,8 @@ def _turning(leg: Targets, order: Order, d: Drives, p: Parameters) -> tuple[Orde
     """The order with the sign of its gain as the vehicle turns; and the fault of a turn that it cannot fly."""
     if order.holds_turn == GIVEN:
         return order, ""
+    if d.gamma_min == d.gamma_max:
+        return order, "asks for a heading or a turn; the vehicle's mass rotation is fixed, and nothing else steers"
     probe = order._replace(net_buoyancy=min(max(order.net_buoyancy, d.mb_min), d.mb_max), holds_buoyancy=GIVEN)
     low, high = turns_of(probe, d, p)
     if low is None or high is None:

@@ -71,11 +71,13 @@ def controls_of(
     if platform and vehicle.name.lower() not in platform.lower():
         warnings.append(f"controls: {platform} recorded them, {vehicle.name} flies them: no twin of that flight")
     if "mass_position_zero" in log.metadata and "mass_position" in tables:
-        nominal = vehicle.actuators.mass_position.nominal
-        tables["mass_position"] = (tables["mass_position"][0], tables["mass_position"][1] + nominal)
+        slide = vehicle.actuators.mass_position
+        shift = slide.nominal - slide.reading
+        tables["mass_position"] = (tables["mass_position"][0], tables["mass_position"][1] + shift)
+        counted = f"at {slide.reading:g} m of it" if slide.reading else "at its zero"
         warnings.append(
-            f"controls: the log counts mass position from the actuator's own zero; {nominal:g} m, the nominal position "
-            f"of {vehicle.name}, is added"
+            f"controls: the log counts mass position from the actuator's own zero; the nominal position of "
+            f"{vehicle.name}, {slide.nominal:g} m, is taken {counted}"
         )
     knots = np.unique(np.concatenate([times for times, _ in tables.values()]))
     zero = int(knots[0]) if zero_ns is None else zero_ns

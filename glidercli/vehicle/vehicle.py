@@ -86,6 +86,9 @@ class PositionRange:
     minimum: Annotated[float, Quantity("m", -5.0, 5.0)]
     nominal: Annotated[float, Quantity("m", -5.0, 5.0)]
     maximum: Annotated[float, Quantity("m", -5.0, 5.0)]
+    reading: Annotated[float, Quantity("m", -5.0, 5.0)] = 0.0
+    """What the vehicle's own log tells as position when the mass is at nominal, forward positive; zero for logs that
+    count from there, as a Seaglider's does from C_PITCH."""
     rate: Annotated[float, Quantity("mm/s", 0.01, 1000.0)] = 6e-3
     """Speed of the slide."""
     power: Annotated[float, Quantity("W", 0.0, 1000.0)] = 6.0

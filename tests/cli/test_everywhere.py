@@ -43,7 +43,7 @@ def test_vehicles_one_plain_line_each(glider: Run) -> None:
     done = glider("vehicles")
     assert done.returncode == 0
     names = [line.split("  ", 1)[0] for line in done.stdout.splitlines()]
-    assert "seawing" in names
+    assert names == ["seaexplorer", "seaglider", "seawing", "slocum"]
     assert all("  " in line for line in done.stdout.splitlines())
 
 

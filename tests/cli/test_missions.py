@@ -135,6 +135,14 @@ def test_the_actuators_of_a_mission_are_the_missions(glider: Run, tmp_path: Path
             "[actuators]\nmass_position_min_m = 0.5\nmass_position_max_m = 0.4\n" + DIVE,
             ("plan.toml: actuators: mass_position_min_m and mass_position_max_m must increase",),
         ),
+        (
+            "[actuators]\nmass_rotation_min_deg = 5.0\nmass_rotation_max_deg = 4.0\n" + DIVE,
+            ("plan.toml: actuators: mass_rotation_min_deg and mass_rotation_max_deg must not decrease",),
+        ),
+        (
+            "[actuators]\nmass_rotation_min_deg = 0.0\nmass_rotation_max_deg = 0.0\n" + DIVE + "heading_deg = 90.0\n",
+            ("leg 1 (dive)", "mass rotation is fixed", "nothing else steers"),
+        ),
         (DIVE.replace("until_depth_m", "until_altitude_m"), ("leg 1 (dive)", "bottom_m")),
         ("duration_s = 1e9\n" + DIVE, ("duration_s = 1000000000.0", "100000000")),
         ("duration_s = nan\n" + DIVE, ("duration_s",)),
@@ -186,3 +194,13 @@ def test_a_leg_of_controls_may_end_after_a_time(glider_json: Callable[..., Any],
     text = '[[leg]]\nkind = "controls"\ncontrols = "c.csv"\nduration_s = 60.0\n'
     document = glider_json("simulate", plan(tmp_path, 2 * text))
     assert [event["time_s"] for event in document["events"] if event["name"].startswith("end of")] == [60.0, 120.0]
+
+
+def test_a_vehicle_with_a_fixed_mass_rotation_flies_straight(glider: Run, tmp_path: Path) -> None:
+    """The Slocum of the file has nothing to steer with; straight legs need no steering."""
+    (tmp_path / "plan.toml").write_text(HEAD + 'vehicle = "slocum"\n' + DIVE.replace("0.3", "0.2"))
+    done = glider("simulate", "plan.toml", "-o", "f.csv")
+    assert done.returncode == 0, done.stderr
+    flown = pd.read_csv(tmp_path / "f.csv")
+    assert flown["heading_deg"].nunique() == 1
+    assert flown["depth_m"].iloc[-1] == pytest.approx(100.0, abs=1e-3)

@@ -108,6 +108,22 @@ def test_a_field_log_is_flown(glider: Run, tmp_path: Path) -> None:
     assert pd.read_csv(tmp_path / "f.csv")["latitude_deg"].notna().all()
 
 
+def test_a_mass_position_is_counted_from_the_reading_of_the_vehicle(glider: Run, tmp_path: Path) -> None:
+    """A SeaExplorer's slide reads 63.5 mm where its file is level; the log's own 70 mm are then 6.5 mm forward."""
+    done = glider("simulate", "--vehicle", "seaexplorer", "--controls", SEA035, "--initial", SEA035, "-o", "f.csv")
+    assert done.returncode == 0, done.stderr
+    assert "0 m, is taken at 0.0635 m of it" in done.stderr
+    assert "no twin of that flight" not in done.stderr
+    flown, log = pd.read_csv(tmp_path / "f.csv"), glider_log(tmp_path, glider)
+    assert flown["mass_position_m"].max() == pytest.approx(log["mass_position_m"].max() - 0.0635, abs=1e-6)
+    assert flown["mass_position_m"].min() == pytest.approx(log["mass_position_m"].min() - 0.0635, abs=1e-6)
+
+
+def glider_log(folder: Path, glider: Run) -> pd.DataFrame:
+    assert glider("replay", SEA035, "-o", "log.csv").returncode == 0
+    return pd.read_csv(folder / "log.csv")
+
+
 def test_a_trim_is_flown_on(glider: Run, glider_json: Callable[..., Any], tmp_path: Path) -> None:
     text = glider("trim", *HELD, "--json").stdout
     (tmp_path / "t.json").write_text(text)
