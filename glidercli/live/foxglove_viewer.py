@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Mapping
-
-import numpy as np
+from itertools import groupby
+from operator import itemgetter
 
 from glidercli.errors import InputError
 from glidercli.live.foxglove import FoxgloveServer, Message
@@ -47,11 +47,21 @@ class FoxgloveViewer:
                 self._announce(topics)
 
     def add(self, piece: Log) -> None:
-        """Send the messages of a piece."""
+        """Send the messages of a piece, and of those that are kept what is due by its end, all in the order of time."""
         for topics in self._contents.samples(piece):
             self._announce(topics)
-            for batch in _in_time([topic for topic in topics if isinstance(topic, Table)]):
-                self.server.send(batch)
+            tables = [topic for topic in topics if isinstance(topic, Table) and len(topic.time_ns)]
+            if not tables:
+                continue
+            items = [(*item, True) for item in self._taken(max(int(topic.time_ns[-1]) for topic in tables))]
+            for topic in tables:
+                messages = zip(topic.time_ns.tolist(), topic.payloads(0, len(topic.time_ns)), strict=True)
+                items += [(topic.name, time_ns, data, False) for time_ns, data in messages]
+            items.sort(key=itemgetter(1))  # at one time in this order
+            for keep, run in groupby(items, key=itemgetter(3)):
+                batch = [item[:3] for item in run]
+                for first in range(0, len(batch), BATCH):
+                    self.server.send(batch[first : first + BATCH], keep)
 
     def whole(self, log: Log, whole: Log, panels: bool) -> None:
         """Let all viewers have track, notes and events, each when its time comes."""
@@ -65,9 +75,7 @@ class FoxgloveViewer:
 
     def clock(self, time_ns: int) -> None:
         """Send the log's time, and what is due by then."""
-        due = [item for item in self._due if item[1] <= time_ns]
-        self._due = [item for item in self._due if item[1] > time_ns]
-        self.server.send(due, keep=True)
+        self.server.send(self._taken(time_ns), keep=True)
         self.server.clock(time_ns)
 
     def check(self) -> None:
@@ -76,6 +84,12 @@ class FoxgloveViewer:
     def close(self, patient: bool) -> None:
         """End the server."""
         self.server.close(patient)
+
+    def _taken(self, time_ns: int) -> list[Message]:
+        """What is due by a time, taken from what is planned, in the order of time."""
+        due = sorted((item for item in self._due if item[1] <= time_ns), key=itemgetter(1))
+        self._due = [item for item in self._due if item[1] > time_ns]
+        return due
 
     def _announce(self, topics: Iterable[Topic]) -> None:
         """Tell of topics, and plan what of them is kept."""
@@ -94,17 +108,3 @@ class FoxgloveViewer:
 def _about(log: Log) -> Mapping[str, str]:
     """What viewers are told of a log beside its messages: a text for every key."""
     return {"log": statement(log), **{k: v if isinstance(v, str) else json.dumps(v) for k, v in log.metadata.items()}}
-
-
-def _in_time(topics: list[Table]) -> Iterable[list[Message]]:
-    """The messages of some topics in time order, in the given order at one time; some at a time."""
-    if not topics:
-        return
-    items = [
-        (topic.name, time_ns, data)
-        for topic in topics
-        for time_ns, data in zip(topic.time_ns.tolist(), topic.payloads(0, len(topic.time_ns)), strict=True)
-    ]
-    order = np.argsort([time_ns for _, time_ns, _ in items], kind="stable").tolist()
-    for first in range(0, len(order), BATCH):
-        yield [items[i] for i in order[first : first + BATCH]]

@@ -70,17 +70,17 @@ class GrowingFiles:
         """What each file gives by now, in their order."""
         self.waiting = ""
         for gone in set(self._known) - set(files):
-            self._tell(f"{gone}: is gone; what was shown of it stays")
-            del self._known[gone]
+            self._tell(f"{gone}: is gone; what was shown of it stays{_account(_report(self._known.pop(gone)[1]))}")
         for path in files:
             state = _state(path)
             before = self._known.get(path)
             if before is not None and before[0] == state:
                 found = before[1]
             else:
-                if before is not None:
-                    self._say_replaced(path, before[0], state)
                 found = self._read(path, aids)
+                if before is not None:
+                    became = _became(before[0], state)
+                    self._say_left_out(path, _report(before[1]), _report(found), became)
                 self._known[path] = state, found
             if isinstance(found, FileReport) and (
                 found.format is not None or found.error == NOT_WHOLE or (state is not None and state.size < BEGINS)
@@ -88,15 +88,19 @@ class GrowingFiles:
                 self.waiting = f"{path}: {found.error}"
             yield found
 
-    def _say_replaced(self, path: Path, before: _State | None, now: _State | None) -> None:
-        if before is None or now is None:
+    def _say_left_out(self, path: Path, before: FileReport, now: FileReport, became: str) -> None:
+        """Tell what of the new records of a file was left out; of one that is another now, what of its former ones."""
+        if became:
+            account = _account(before, now.warnings)
+            self._tell(f"{path}: {became}; it is read anew, newer samples are shown{account}")
             return
-        if now.size < before.size:
-            self._tell(
-                f"{path}: shrank from {before.size} to {now.size} bytes; it is read anew, newer samples are shown"
-            )
-        elif now.inode != before.inode:
-            self._tell(f"{path}: was replaced; it is read anew, newer samples are shown")
+        known = dict(before.dropped)
+        dropped = {reason: count - known.get(reason, 0) for reason, count in now.dropped}
+        words = [f"{count} {reason}" for reason, count in dropped.items() if count > 0]
+        told = [f"new records left out: {', '.join(words)}"] if words else []
+        told += [warning for warning in now.warnings if warning not in before.warnings]
+        if told and now.error is None and before.error is None:
+            self._tell(f"{path}: {'; '.join(told)}")
 
     def _read(self, path: Path, aids: Aids) -> Part | FileReport:
         if path.stat().st_size == 0:
@@ -105,7 +109,7 @@ class GrowingFiles:
         if kind == "lines":
             return self._read_lines(path, aids)
         found = read_one(path, self._format, aids)
-        report = found.report if isinstance(found, Part) else found
+        report = _report(found)
         if kind != "cycles" and report.error is not None and report.format is not None:
             return dataclasses.replace(report, records=0, kept=0, dropped=(), error=NOT_WHOLE)
         return found
@@ -122,12 +126,35 @@ class GrowingFiles:
                 if beside.name != path.name and (beside.name.startswith(stem) or beside.suffix == ".toml"):
                     (place / beside.name).symlink_to(beside.resolve())
             found = read_one(copy, self._format, aids)
-            report = found.report if isinstance(found, Part) else found
+            report = _report(found)
             beside_it = tuple(path.parent / p.name if p.parent == place else p for p in report.beside)
             report = dataclasses.replace(report, path=path, beside=beside_it)
             return dataclasses.replace(found, report=report) if isinstance(found, Part) else report
         finally:
             shutil.rmtree(place, ignore_errors=True)
+
+
+def _report(found: Part | FileReport) -> FileReport:
+    return found.report if isinstance(found, Part) else found
+
+
+def _became(before: _State | None, now: _State | None) -> str:
+    """What became of a file that is another one now, or ""."""
+    if before is None or now is None:
+        return ""
+    if now.size < before.size:
+        return f"shrank from {before.size} to {now.size} bytes"
+    return "was replaced" if now.inode != before.inode else ""
+
+
+def _account(report: FileReport, known: Sequence[str] = ()) -> str:
+    """What of a file's records had been left out, for the end of a line; "" where nothing was.
+
+    known : warnings that need not be told.
+    """
+    told = [f"{count} {reason}" for reason, count in report.dropped]
+    told += [warning for warning in report.warnings if warning not in known]
+    return f"; of its {report.records} records {report.kept} had been kept: {', '.join(told)}" if told else ""
 
 
 def _copy_lines(path: Path, copy: Path) -> int:

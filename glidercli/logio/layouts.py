@@ -9,7 +9,7 @@ from pathlib import Path
 from glidercli.errors import OutputError
 from glidercli.files import atomic
 from glidercli.log import Log
-from glidercli.logio.mcap.layouts import LAYOUTS, layout, sight_of
+from glidercli.logio.mcap.layouts import LAYOUTS, fields_of, layout, sight_of
 
 __all__ = ["LAYOUTS", "write_layouts"]
 
@@ -18,7 +18,7 @@ def write_layouts(folder: Path, force: bool = False, log: Log | None = None) -> 
     """Write each layout to FOLDER/glider-NAME.json, which is made if it is not there; all of them or none.
 
     force : replace files that exist; without it that is an OutputError. log : a flight that the view of the whole is to
-    fit; every other can be opened, too.
+    fit; panels of which it has nothing are left out. Without one they serve every log.
     """
     if folder.exists() and not folder.is_dir():
         raise OutputError(folder, "is a file; a folder is needed")
@@ -26,10 +26,10 @@ def write_layouts(folder: Path, force: bool = False, log: Log | None = None) -> 
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise OutputError(folder, f"cannot be made: {error.strerror}") from error
-    sight = None if log is None else sight_of(log)
+    sight, fields = (None, None) if log is None else (sight_of(log), fields_of(log))
     paths = {name: folder / f"glider-{name}.json" for name in LAYOUTS}
     with contextlib.ExitStack() as pending:
         parts = {name: pending.enter_context(atomic(path, force)) for name, path in paths.items()}
         for name, part in parts.items():
-            part.write_text(json.dumps(layout(name, sight), indent=2) + "\n", encoding="utf-8")
+            part.write_text(json.dumps(layout(name, sight, fields), indent=2) + "\n", encoding="utf-8")
     return list(paths.values())

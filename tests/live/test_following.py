@@ -182,6 +182,54 @@ def test_a_file_that_shrinks_and_one_that_is_replaced_are_told(follower: tuple[F
     assert any("is gone" in line for line in said)
 
 
+TABLE = "time_utc,depth_m,pitch_deg\n" + "".join(f"2020-01-01T00:00:{s:02d}Z,{s},2\n" for s in range(0, 50, 10))
+GOOD = "2020-01-01T00:{:02d}:00Z,7,2\n"
+
+
+def test_what_is_left_out_of_a_table_is_told_when_it_happens(follower: tuple[Follower, Path, list[str]]) -> None:
+    """By reason and number, once each; and again with the account of the file when its lines are taken away."""
+    look, folder, said = follower
+    path = folder / "a.csv"
+    path.write_text(TABLE)
+    assert look.look() is not None
+    assert said == []
+    path.write_text(TABLE + "garbage &&& line\n" + GOOD.format(1))
+    assert look.look() is not None
+    assert said == [f"{path}: new records left out: 1 wrong number of fields"]
+    path.write_text(path.read_text() + "one\ntwo\n2019-01-01T00:00:00Z,7,2\n" + GOOD.format(2))
+    assert look.look() is not None
+    assert said[1:] == [f"{path}: new records left out: 1 time goes back, 2 wrong number of fields"]
+    path.write_text(path.read_text() + GOOD.format(3) + "2020-01-01T00:04:00Z,abc,2\n")
+    assert look.look() is not None
+    (line,) = said[2:]
+    assert line.startswith(f"{path}: depth_m: 1 cells left out that are no number")
+    path.write_text(path.read_text() + GOOD.format(5))
+    assert look.look() is not None
+    assert len(said) == 3
+    path.write_text(TABLE)
+    assert look.look() is not None
+    (line,) = [line for line in said if "shrank" in line]
+    # 5 rows, a word and a row, two words and an old row and a row, a row and one with half its cells, a row
+    assert (
+        "of its 14 records 10 had been kept: 1 time goes back, 3 wrong number of fields, depth_m: 1 cells left out"
+        in line
+    )
+    assert look.reading is not None
+    assert [(report.records, report.kept) for report in look.reading.files] == [(5, 5)]
+
+
+def test_outputs_of_a_file_that_was_rewritten_shorter_hold_what_is_on_disk(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(TABLE)
+    with running("replay", path, "--follow", "--wait", "0.1", "-o", "out.csv", cwd=tmp_path) as run:
+        run.wait_for_line("it goes on without")
+        path.write_text("".join(TABLE.splitlines(keepends=True)[:4]))
+        run.wait_for_line("shrank from")
+        assert run.end(signal.SIGINT) == 0, run.said
+    depths = [line.split(",")[2] for line in (tmp_path / "out.csv").read_text().splitlines()[1:]]
+    assert depths == ["0", "10", "20"]
+
+
 def test_what_is_not_whole_yet_waits(follower: tuple[Follower, Path, list[str]]) -> None:
     """A compressed file in a folder counts once it can be unpacked to its end."""
     look, folder, said = follower

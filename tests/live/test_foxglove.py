@@ -10,6 +10,9 @@ import pytest
 from conftest import ROOT, Run, one_line_error
 from live_clients import Watcher, in_file, running, wait_for
 
+from glidercli.live.foxglove import Message
+from glidercli.live.foxglove_viewer import FoxgloveViewer
+from glidercli.live.pacing import between
 from glidercli.logio import read, write
 
 SEA035 = ROOT / "logs" / "seaexplorer-sea035"
@@ -46,6 +49,36 @@ def test_every_message_comes_as_in_the_file(
     assert watcher.clocks[-1] == max(times)
     assert watcher.clocks == sorted(watcher.clocks)
     assert "played to the end" in run.said
+
+
+@pytest.mark.parametrize("minutes", [1, 20, 600])
+def test_topics_come_in_the_order_of_time_within_a_step(minutes: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Steps of a play that hold a record each, some dozens of them, and the whole log of 5.8 h."""
+    log = read([SEA035]).log
+    viewer = FoxgloveViewer(log, None, lambda line: None)
+    sent: list[tuple[str, int]] = []
+    kept: set[str] = set()
+
+    def send(messages: list[Message], keep: bool = False) -> None:
+        sent.extend((topic, time_ns) for topic, time_ns, _ in messages)
+        kept.update(topic for topic, _, _ in messages if keep)
+
+    monkeypatch.setattr(viewer.server, "send", send)
+    try:
+        viewer.begin(log, None)
+        viewer.whole(log, log, panels=True)
+        viewer.clock(log.start_ns)
+        step = minutes * 60 * 10**9
+        for start_ns in range(log.start_ns, log.end_ns + 1, step):
+            end_ns = min(start_ns + step, log.end_ns + 1)
+            viewer.add(between(log, start_ns, end_ns))
+            viewer.clock(end_ns - 1)
+    finally:
+        viewer.close(patient=False)
+    times = [time_ns for _, time_ns in sent]
+    assert times == sorted(times)
+    assert len({topic for topic, _ in sent}) > 10
+    assert kept >= {"/tf_static", "/viz/track", "/viz/phase", "/log", "/map/track"}
 
 
 def test_its_schemas_decode_its_messages(tmp_path: Path) -> None:
@@ -132,7 +165,6 @@ def test_one_that_does_not_read_is_waited_for_and_told(
     import time
 
     from glidercli.live import client, foxglove
-    from glidercli.live.foxglove_viewer import FoxgloveViewer
 
     monkeypatch.setattr(client, "MOST_WAITING", 20_000)
     monkeypatch.setattr(foxglove, "SLOW", 0.2)

@@ -5,10 +5,12 @@ from __future__ import annotations
 import contextlib
 import os
 import re
+import shutil
 import signal
 import socket
 import subprocess
 import urllib.request
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +22,13 @@ from glidercli.channels import CHANNELS
 from glidercli.live.rerun_viewer import binary, quiet_environment
 from glidercli.log import Log
 from glidercli.logio import read
+from glidercli.logio.rerun import colours as look
 
+XVFB = shutil.which("Xvfb")
+VULKAN = [
+    file for place in ("/usr/share", "/usr/local/share", "/etc") for file in Path(place, "vulkan/icd.d").glob("*.json")
+]
+"""Drivers, where Vulkan's loader looks for them."""
 SEA035 = ROOT / "logs" / "seaexplorer-sea035"
 DIVE = SEA035 / "sea035.12.gli.sub.37"
 
@@ -258,6 +266,61 @@ def test_the_viewer_that_a_window_would_show_gets_the_log(tmp_path: Path, monkey
     finally:
         viewer.close(patient=False)
     assert viewer._process.returncode is not None
+
+
+@contextlib.contextmanager
+def screen(folder: Path) -> Iterator[tuple[dict[str, str], Path]]:
+    """A display without a monitor, as an environment and the file of its pixels.
+
+    Without the extension Composite: with it a window has an alpha channel, and Mesa's software Vulkan draws nothing.
+    """
+    assert XVFB is not None
+    read_end, write_end = os.pipe()
+    command = [XVFB, "-displayfd", str(write_end), "-screen", "0", "1000x600x24", "-extension", "Composite"]
+    command += ["-fbdir", str(folder), "-nolisten", "tcp"]
+    with subprocess.Popen(command, pass_fds=[write_end], stderr=subprocess.DEVNULL) as server:
+        try:
+            os.close(write_end)
+            with os.fdopen(read_end) as told:
+                number = told.readline().strip()
+            bare = {name: value for name, value in os.environ.items() if not re.match("DISPLAY|WAYLAND", name)}
+            own = {"DISPLAY": f":{number}", "XDG_RUNTIME_DIR": str(folder)}
+            yield {**bare, **own}, folder / "Xvfb_screen0"
+        finally:
+            server.terminate()
+
+
+def pixels(path: Path) -> np.ndarray:
+    """Red, green and blue, (600, 1000, 3), of a screen: an XWD file (X11/XWDFile.h), its numbers big-endian."""
+    data = path.read_bytes()
+    header = np.frombuffer(data, ">u4", 25)
+    start = int(header[0] + 12 * header[19])  # of a header and ncolors colours of 12 bytes
+    width, height, line = (int(header[i]) for i in (4, 5, 12))
+    rows = np.frombuffer(data, np.uint8, height * line, start).reshape(height, line)[:, : 4 * width]
+    return rows.reshape(height, width, 4)[..., 2::-1]
+
+
+def painted(path: Path, colour: tuple[int, int, int]) -> int:
+    return int((pixels(path) == np.array(colour, np.uint8)).all(axis=-1).sum())
+
+
+@pytest.mark.skipif(XVFB is None, reason="no display without a monitor (Debian: xvfb)")
+@pytest.mark.skipif(not VULKAN, reason="no driver for Vulkan (Debian: mesa-vulkan-drivers)")
+def test_a_window_shows_the_log_and_its_end_ends_the_play(tmp_path: Path) -> None:
+    """Seen on the screen: lines in the colours of dive and climb. Then the window is closed while a log plays."""
+    with screen(tmp_path) as (env, shown):
+        with running("replay", DIVE, "--spawn", cwd=tmp_path, env=env) as run:
+            run.wait_for_line("all is sent")
+            # a line of one pixel across a tenth of the depth panel, at least, in each colour
+            wait_for(lambda: min(painted(shown, look.BLUE), painted(shown, look.ORANGE)) > 40, "lines on the screen")
+            assert run.end(signal.SIGINT) == 0, run.said
+        assert painted(shown, look.BLUE) == 0  # nothing is left on the screen
+        with running("replay", DIVE, "--spawn", "--rate", "10", cwd=tmp_path, env=env) as run:
+            wait_for(lambda: painted(shown, look.BACKGROUND) > 10_000, "the ground of its scenes")
+            (viewer,) = children(run.process.pid)
+            os.kill(viewer, signal.SIGTERM)
+            assert run.wait() == 0
+            assert run.said == ["the Rerun viewer was closed; no viewer is left"]
 
 
 def test_rerun_sends_no_telemetry_for_us(tmp_path: Path) -> None:

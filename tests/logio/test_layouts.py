@@ -20,17 +20,35 @@ from viewer_logs import LOGS
 from glidercli.channels import CHANNELS
 from glidercli.logio.layouts import LAYOUTS, write_layouts
 from glidercli.logio.mcap.layouts import Sight, sight_of
+from glidercli.logio.mcap.layouts import layout as layout_of
 from glidercli.logio.mcap.reader import read_mcap_log
 from glidercli.logio.mcap.topics import field_names
 from glidercli.logio.mcap.writer import write_mcap
 
 BUILTIN = {"3D", "map", "Plot", "StateTransitions", "RosOut", "RawMessages", "SourceInfo", "Tab"}
 """Panel types of both viewers that the layouts may use (Lichtblick: suite-base/src/panels/index.ts)."""
+LAYOUT = layout_of("foxglove")
 SCHEMAS = {
     "map": {"foxglove.GeoJSON", "foxglove.LocationFix"},
     "RosOut": {"foxglove.Log"},
     "3D": {"foxglove.SceneUpdate"},
 }
+
+
+def kinds_in(path: Path) -> dict[str, Any]:
+    """The message descriptor of each topic of an MCAP with a message, by the mcap library and the file's own schemas."""
+    with path.open("rb") as stream:
+        summary = make_reader(stream).get_summary()
+    assert summary is not None
+    assert summary.statistics is not None
+    kinds = {}
+    for channel in summary.channels.values():
+        assert summary.statistics.channel_message_counts[channel.id] > 0
+        schema, pool = summary.schemas[channel.schema_id], DescriptorPool()
+        for file in FileDescriptorSet.FromString(schema.data).file:
+            pool.Add(file)
+        kinds[channel.topic] = pool.FindMessageTypeByName(schema.name)
+    return kinds
 
 
 @pytest.fixture(scope="module")
@@ -44,16 +62,7 @@ def described(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
         depth_averaged_current_north_m_s="0.1", depth_averaged_current_east_m_s="0.2", bottom_depth_m="90"
     )
     write_mcap(log, path)
-    with path.open("rb") as stream:
-        summary = make_reader(stream).get_summary()
-    assert summary is not None
-    kinds = {}
-    for channel in summary.channels.values():
-        schema, pool = summary.schemas[channel.schema_id], DescriptorPool()
-        for file in FileDescriptorSet.FromString(schema.data).file:
-            pool.Add(file)
-        kinds[channel.topic] = pool.FindMessageTypeByName(schema.name)
-    return kinds
+    return kinds_in(path)
 
 
 def leaves(tree: Any) -> Iterator[str]:
@@ -159,6 +168,39 @@ def test_the_view_of_the_whole_fits_a_log(glider: Run, tmp_path: Path) -> None:
     distance = panel["cameraState"]["distance"]
     assert math.degrees(math.asin(reach / distance)) < 45.0 / 2 + 3.0  # the ball about it; corners may touch the edge
     assert reach > 0.25 * distance  # and it is not lost in the middle
+
+
+@pytest.mark.parametrize("name", LOGS)
+def test_panels_of_which_a_log_has_nothing_are_left_out(name: str, tmp_path: Path) -> None:
+    """What is left is a whole layout, each panel of which shows something that is in the log's own file."""
+    log = LOGS[name]()
+    write_layouts(tmp_path, log=log)
+    write_mcap(log, tmp_path / "a.mcap")
+    there = kinds_in(tmp_path / "a.mcap")
+    for found in sorted(tmp_path.glob("glider-*.json")):
+        whole = json.loads(found.read_text())
+        panels = whole["configById"]
+        tabs = [tab for panel in panels.values() for tab in panel.get("tabs", [])]
+        shown = [panel for tree in (whole["layout"], *(tab["layout"] for tab in tabs)) for panel in leaves(tree)]
+        assert sorted(shown) == sorted(panels)  # no id that hangs loose, none twice, none unseen
+        for panel, settings in panels.items():
+            assert settings.get("tabs") != [], panel
+            assert settings.get("paths") != [], panel
+            assert settings.get("topics") != {} or not panel.startswith("3D"), panel
+            for topic in (*settings.get("topics", {}), settings.get("topicPath"), settings.get("topicToRender")):
+                assert topic is None or topic in there, panel
+            for path in settings.get("paths", []):
+                topic, field = path["value"].split(".")
+                assert field in there[topic].fields_by_name, path
+        drawn = {topic for topic, kind in there.items() if kind.full_name in SCHEMAS["3D"]}
+        assert {topic for settings in panels.values() for topic in settings.get("topics", {})} == drawn
+        assert ("map!track" in panels) == any(kind.full_name in SCHEMAS["map"] for kind in there.values())
+        assert ("RawMessages!event" in panels) == ("/glider/event" in there)
+        for spec in CHANNELS.values():  # and whatever can be plotted is
+            plotted = f"/glider/{spec.group}.{field_names(spec)[-1]}"
+            in_all = any(plotted == p["value"] for s in LAYOUT["configById"].values() for p in s.get("paths", []))
+            in_this = any(plotted == p["value"] for s in panels.values() for p in s.get("paths", []))
+            assert in_this == (in_all and spec.name in log and len(log[spec.name]) > 0), plotted
 
 
 @pytest.mark.parametrize("name", ["one_sample", "events_alone"])

@@ -10,16 +10,18 @@ MPL-2.0; facts only). The two differ in the key of a panel's title alone.
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Mapping, Set
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from glidercli.channels import CHANNELS
 from glidercli.log import Log
+from glidercli.logio.mcap.contents import Contents
 from glidercli.logio.mcap.primitives import MAP, PLACE
 from glidercli.logio.mcap.topics import field_names
 
-__all__ = ["LAYOUTS", "Sight", "layout", "sight_of"]
+__all__ = ["LAYOUTS", "Sight", "fields_of", "layout", "sight_of"]
 
 LAYOUTS = {
     "foxglove": "Foxglove: 3-D, map, plots, events",
@@ -31,6 +33,8 @@ TITLE_KEYS = {"foxglove": "foxglovePanelTitle", "lichtblick": "lichtblickPanelTi
 NEAR = ("vehicle", "movable_mass", "rudder", "current", "track", "surface", "bottom")
 FAR = ("vehicle", "movable_mass", "rudder", "track", "surface", "bottom", "fixes", "current_profile", "current_average")
 """The topics /viz/NAME that are drawn about the hull, and of the whole flight; a viewer draws none unless told to."""
+ON_MAP = {"/map/track", "/glider/fix"}
+"""Topics that the map's panel draws."""
 COLOURS = ("#4e98e2", "#f5774d", "#5fc27e", "#b98cff", "#f0d05a")
 
 Tree = str | dict[str, Any]
@@ -57,8 +61,21 @@ def sight_of(log: Log) -> Sight:
     return Sight((east_0, north_0, up_0), 1.2 * max(size, 10.0))
 
 
-def layout(name: str, sight: Sight | None = None) -> dict[str, Any]:
-    """The layout of one of LAYOUTS. sight : of the panel that shows the whole flight."""
+def fields_of(log: Log) -> dict[str, set[str]]:
+    """The topics that an MCAP of a log has messages of, and the names of their fields."""
+    contents = Contents(log)
+    topics = [topic for some in contents.samples(log) for topic in some] + contents.whole(log)
+    return {
+        topic.name: {field.name for field in topic.descriptor.fields} for topic in topics if len(topic.time_ns)
+    }  # fmt: skip
+
+
+def layout(name: str, sight: Sight | None = None, fields: Mapping[str, Set[str]] | None = None) -> dict[str, Any]:
+    """The layout of one of LAYOUTS.
+
+    sight : of the panel that shows the whole flight. fields : topics that there are, with their fields; panels, lines
+    and tabs without any are left out. None for all.
+    """
     panels: dict[str, dict[str, Any]] = {
         "3D!hull": _view(PLACE, "follow-pose", Sight(distance=4.0), NEAR),
         "3D!track": _view(MAP, "follow-none", sight or Sight(), FAR),
@@ -103,26 +120,51 @@ def layout(name: str, sight: Sight | None = None) -> dict[str, Any]:
     }  # fmt: skip
     for panel, settings in panels.items():
         settings[TITLE_KEYS[name]] = titles[panel]
-    panels["Tab!where"] = _tabs({"track": "3D!track", "map": "map!track"})
-    panels["Tab!plots"] = _tabs(
-        {
-            "attitude": _column("Plot!attitude", "Plot!heading", "Plot!rates"),
-            "actuators": _column("Plot!mass_position", "Plot!angles", "Plot!buoyancy", "Plot!ballast"),
-            "water": _column("Plot!temperature", "Plot!salinity", "Plot!density", "Plot!conductivity"),
-            "current": "Plot!current",
-            "motion": _column("Plot!speed", "Plot!flow"),
-        }
-    )
-    panels["Tab!words"] = _tabs({
-        "log": "RosOut!log", "events": "RawMessages!event", "navigation": "RawMessages!navigation",
-        "topics": "SourceInfo!topics",
-    })  # fmt: skip
-    left = _split("column", "3D!hull", _split("column", "Tab!where", "Tab!words", 68.0), 42.0)
-    right = _split("column", _split("column", "Plot!depth", "StateTransitions!phase", 74.0), "Tab!plots", 42.0)
+    if fields is not None:
+        panels = {panel: kept for panel, settings in panels.items() if (kept := _kept(settings, fields)) is not None}
+        if not fields.keys() & ON_MAP:
+            panels.pop("map!track")
+    trees = {
+        "Tab!where": {"track": _column(panels, "3D!track"), "map": _column(panels, "map!track")},
+        "Tab!plots": {
+            "attitude": _column(panels, "Plot!attitude", "Plot!heading", "Plot!rates"),
+            "actuators": _column(panels, "Plot!mass_position", "Plot!angles", "Plot!buoyancy", "Plot!ballast"),
+            "water": _column(panels, "Plot!temperature", "Plot!salinity", "Plot!density", "Plot!conductivity"),
+            "current": _column(panels, "Plot!current"),
+            "motion": _column(panels, "Plot!speed", "Plot!flow"),
+        },
+        "Tab!words": {
+            "log": _column(panels, "RosOut!log"), "events": _column(panels, "RawMessages!event"),
+            "navigation": _column(panels, "RawMessages!navigation"), "topics": _column(panels, "SourceInfo!topics"),
+        },
+    }  # fmt: skip
+    for tab, titled in trees.items():
+        if shown := {title: tree for title, tree in titled.items() if tree is not None}:
+            panels[tab] = _tabs(shown)
+    one = {panel: _column(panels, panel) for panel in ("3D!hull", "Plot!depth", "StateTransitions!phase", *trees)}
+    left = _split("column", one["3D!hull"], _split("column", one["Tab!where"], one["Tab!words"], 68.0), 42.0)
+    above = _split("column", one["Plot!depth"], one["StateTransitions!phase"], 74.0)
     return {
         "configById": panels, "globalVariables": {}, "userNodes": {}, "playbackConfig": {"speed": 5},
-        "layout": _split("row", left, right, 52.0),
+        "layout": _split("row", left, _split("column", above, one["Tab!plots"], 42.0), 52.0),
     }  # fmt: skip
+
+
+def _kept(settings: dict[str, Any], fields: Mapping[str, Set[str]]) -> dict[str, Any] | None:
+    """A panel with what there is alone; None without any of it."""
+    if "paths" in settings:
+        paths = [path for path in settings["paths"] if _is_there(path["value"], fields)]
+        return {**settings, "paths": paths} if paths else None
+    if "topics" in settings:
+        topics = {topic: style for topic, style in settings["topics"].items() if topic in fields}
+        return {**settings, "topics": topics} if topics else None
+    topic = settings.get("topicPath", settings.get("topicToRender"))
+    return settings if topic is None or topic in fields else None
+
+
+def _is_there(path: str, fields: Mapping[str, Set[str]]) -> bool:
+    topic, field = path.split(".")
+    return field in fields.get(topic, ())
 
 
 def _view(frame: str, follow: str, sight: Sight, shown: tuple[str, ...]) -> dict[str, Any]:
@@ -169,12 +211,16 @@ def _tabs(tabs: dict[str, Tree]) -> dict[str, Any]:
     return {"activeTabIdx": 0, "tabs": [{"title": title, "layout": tree} for title, tree in tabs.items()]}
 
 
-def _split(direction: str, first: Tree, second: Tree, percentage: float) -> dict[str, Any]:
+def _split(direction: str, first: Tree | None, second: Tree | None, percentage: float) -> Tree | None:
+    """Two panels or trees beside each other; one of them where the other is not there."""
+    if first is None or second is None:
+        return second if first is None else first
     return {"direction": direction, "first": first, "second": second, "splitPercentage": percentage}
 
 
-def _column(*panels: str) -> Tree:
-    """Panels above each other, of equal height."""
-    if len(panels) == 1:
-        return panels[0]
-    return _split("column", panels[0], _column(*panels[1:]), 100.0 / len(panels))
+def _column(panels: Collection[str], *names: str) -> Tree | None:
+    """Those of some that are among the panels above each other, of equal height; None where none is."""
+    present = [name for name in names if name in panels]
+    if not present:
+        return None
+    return _split("column", present[0], _column(panels, *present[1:]), 100.0 / len(present))

@@ -15,27 +15,27 @@ from glidercli.logio.drawable import bottom, origin
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun import still
 from glidercli.logio.rerun.about import about_several
+from glidercli.logio.rerun.apart import TOO_FAR, apart, in_km
 from glidercli.logio.rerun.axes import Extent, joined
 from glidercli.logio.rerun.chart import Line, chart
 from glidercli.logio.rerun.clocks import aligned
 from glidercli.logio.rerun.contents import PIECE, header, texts
 from glidercli.logio.rerun.differences import Difference, differences, reference_first
 from glidercli.logio.rerun.hull import hull_notes
-from glidercli.logio.rerun.panels import ASPECT
+from glidercli.logio.rerun.panels import ASPECT, unit_of
 from glidercli.logio.rerun.plots import Plots, lines
 from glidercli.logio.rerun.scene import Scene
 from glidercli.logio.rerun.sea import Sea
 from glidercli.logio.rerun.settling import columns, row
 from glidercli.logio.rerun.side_by_side import Pair, Side, side_by_side
-from glidercli.places import track_of_geodetic
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
 __all__ = ["Beside"]
 
-TOO_FAR, LEAST_SIZE = 10.0, 1000.0
-"""Times the size of the larger track, of at least so many m: from there on a track is under a tenth of the picture."""
+NARROWER = 0.9
+"""Of the width of a single log's scene: its column has 34 % of the window in place of 37 %."""
 
 
 class Beside:
@@ -51,15 +51,15 @@ class Beside:
         self._sides: list[Side] = []
         self._plots: list[Plots] = []
         self._scenes: list[Scene] = []
-        self._apart = {number: apart for number, one in enumerate(self._logs) if (apart := _too_far(log, one))}
-        """m, from the first log's origin to that of each which is drawn from its own start."""
+        self._apart = {number: far for number, one in enumerate(self._logs) if number and (far := apart(log, one))}
         for number, one in enumerate(self._logs):
             colour = look.OVERLAID[number % len(look.OVERLAID)]
             place = f"/beside/{number}" if number else ""
             label, short = _labels(number, self._logs, names)
             self._plots.append(Plots(one, self._zero_ns, place, colour, short))
-            about = origin(log) if number and number not in self._apart else None
-            self._scenes.append(Scene(one, self._zero_ns, f"/world{place}", colour, about))
+            far, about = self._apart.get(number), origin(log) if number else None
+            about, moved = (about, (0.0, 0.0)) if far is None else (far.about, far.moved)
+            self._scenes.append(Scene(one, self._zero_ns, f"/world{place}", colour, about, moved))
             scene = self._scenes[-1]
             self._sides.append(Side(one, label, short, place, colour, scene.vehicle, scene.has_hull))
 
@@ -102,23 +102,30 @@ class Beside:
         page = rr.TextDocument(about_several(sides, notes), media_type=rr.MediaType.MARKDOWN)
         chunks.append(row("/about", page))
         span_ns = max(one.end_ns for one in self._logs) - self._zero_ns
-        return chunks, side_by_side(self._sides, pairs, sea, zoom, span_ns, self._extents(), bool(self._apart))
+        return chunks, side_by_side(self._sides, pairs, sea, zoom, span_ns, self._extents(), self._own_starts())
 
     def _extents(self) -> dict[str, Extent]:
         """Of the values of each channel in all logs."""
         names = {name for plots in self._plots for name in plots.extents}
         return {name: joined(plots.extents[name] for plots in self._plots if name in plots.extents) for name in names}
 
+    def _own_starts(self) -> str:
+        """Of tracks that are not where they were: how far apart they began, for a title."""
+        words = sorted({in_km(far.distance): far.distance for far in self._apart.values()}.items(), key=lambda w: w[1])
+        if not words:
+            return ""
+        return f"each from its own start, {words[0][0] + ' to ' if len(words) > 1 else ''}{words[-1][0]} apart"
+
     def _surroundings(self, chunks: list[Chunk], notes: list[str]) -> Sea | None:
         """All tracks, with the sea about them, added to what is drawn and told."""
         import rerun as rr
 
-        tracks = [scene.track.rows() for scene in self._scenes]
+        tracks = [scene.drawn_track() for scene in self._scenes]
         if not any(len(rows) > 1 for rows in tracks):
             return None
         depths = [depth for depth in map(bottom, self._logs) if depth is not None]
         places = np.concatenate([rows[:, :3] for rows in tracks])
-        aspect = ASPECT[1 + any(side.has_hull for side in self._sides)]
+        aspect = NARROWER * ASPECT[1 + any(side.has_hull for side in self._sides)]
         sea = Sea.about(places, max(depths, default=None), np.empty((0, 3)), aspect)
         chunks += [row("/world", rr.Transform3D(scale=[1.0, 1.0, sea.exaggeration])), *sea.chunks]
         notes += sea.notes
@@ -129,11 +136,11 @@ class Beside:
                 notes += [f"{side.short}: {note}" for note in told]
         if len(tracks) > 1 and any(origin(one) is None for one in self._logs):
             notes.append("Not every log tells where on the globe it was: each track is drawn about its own origin.")
-        for number, apart in self._apart.items():
+        for number, far in self._apart.items():
             who, first = self._sides[number].short, self._sides[0].short
             notes.append(
-                f"{who} began {apart / 1000.0:,.0f} km from {first}, which one scene cannot hold: its track is drawn "
-                "from the same start. The map has both where they were."
+                f"{who} began {in_km(far.distance)} from {first}, more than {TOO_FAR:g} times the size of a track; "
+                "in one scene both would be dots. Its track is drawn from the same start; the map has both in place."
             )
         return sea
 
@@ -142,15 +149,18 @@ class Beside:
         sides = self._sides[0], self._sides[number]
         reference, other = sides if reference_first(sides[0].log, sides[1].log) else sides[::-1]
         found = differences(reference.log, other.log)
-        pair = Pair(f"{other.short} less {reference.short}", f"/difference/{number}", sides[1].colour, found)
+        pair = Pair(other, reference, f"/difference/{number}", sides[1].colour, found)
         for one in found:
             chunks += self._drawn(one, pair)
         unlike = [one.name.replace("_", " ") for one in found if not one.same_zero]
         if found:
             notes.append(
                 f"Differences: {pair.title}, at the samples of {reference.short}; {other.short} is interpolated "
-                "between its own samples, not across gaps of them. Angles are differences on the circle."
+                "between its own samples, not across gaps of them. Angles are differences on the circle. "
+                f"That of depth is negative where {other.short} is deeper, as depth is plotted."
             )
+            rms = ", ".join(f"{one.name.replace('_', ' ')} {one.rms:.3g} {unit_of(one.name)}" for one in found)
+            notes.append(f"Root of the mean square of {pair.title}: {rms}.")
         if unlike:
             notes.append(f"Counted from different zeros, which is in the difference: {', '.join(unlike)}.")
         return pair
@@ -164,16 +174,6 @@ class Beside:
         drawn = lines(1.5, **style) if pair.drawn_as_lines(one.name) else rr.SeriesPoints(**points)
         values = rr.Scalars.columns(scalars=one.values)
         return [row(entity, drawn), columns(entity, self._zero_ns, one.time_ns, values)]
-
-
-def _too_far(log: Log, other: Log) -> float | None:
-    """How far apart two logs' origins are, m, where a scene of both would show neither; else None."""
-    here, there = origin(log), origin(other)
-    if here is None or there is None:
-        return None
-    apart = float(np.hypot(*track_of_geodetic(*there, *here)))
-    sizes = [float(np.ptp(one[name].values)) for one in (log, other) for name in ("north", "east") if name in one]
-    return apart if apart > TOO_FAR * max([*sizes, LEAST_SIZE]) else None
 
 
 def _labels(number: int, logs: Sequence[Log], names: Sequence[str]) -> tuple[str, str]:

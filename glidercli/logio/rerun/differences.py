@@ -1,7 +1,8 @@
 """How far are two Logs side by side from each other? Their differences, at the samples of one of them.
 
 The measured log sets the times, and without exactly one the first. The other is interpolated between its own samples,
-never across a gap of them and never beyond their ends: there the difference is NaN, which draws as a gap.
+never across a gap of them and never beyond their ends: there the difference is NaN, which draws as a gap. A difference
+has the sign of its plot: depth, which is plotted negative down, is below zero where the other is deeper.
 """
 
 from __future__ import annotations
@@ -20,7 +21,10 @@ __all__ = ["Difference", "differences", "reference_first"]
 
 
 class Difference(NamedTuple):
-    """Of one channel, in the table's unit, on the reference's times, UTC ns; NaN where there is none."""
+    """Of one channel, in the table's unit, on the reference's times, UTC ns; NaN where there is none.
+
+    Of depth the values are negative where the other is deeper.
+    """
 
     name: str
     time_ns: NDArray[np.int64]
@@ -48,7 +52,8 @@ def differences(reference: Log, other: Log) -> list[Difference]:
         if not len(left.error):
             continue
         times = np.concatenate([left.time_ns, left.skipped_ns])
-        values = np.concatenate([left.error, np.full(len(left.skipped_ns), np.nan)])
+        error = -left.error if name == "depth" else left.error
+        values = np.concatenate([error, np.full(len(left.skipped_ns), np.nan)])
         order = np.argsort(times)
         zeros = {log.metadata.get(f"{name}_zero", "") for log in (reference, other)}
         rms = float(np.sqrt(np.mean(left.error**2)))

@@ -116,14 +116,14 @@ def space(title: str, origin: str, contents: Sequence[str], eye: Array, target: 
     return rrb.Spatial3DView(origin=origin, contents=[*contents], name=title, **style)
 
 
-def hull_view(title: str, vehicle: str, length: float, path: str | None = None) -> Any:
+def hull_view(title: str, vehicle: str, length: float, path: str | None = None, abreast: int = 1) -> Any:
     """The hull from its port side; the camera goes with it and turns with its heading.
 
-    path : entity of a thin line along the track.
+    path : entity of a thin line along the track. abreast : how many such panels share the width of one.
     """
     contents = [f"+ {vehicle}/**", f"- {vehicle}/marker", f"- {vehicle}/plumb"]
     contents += [f"+ {path}"] if path else []
-    eye = length * np.array([-0.3, -1.12, -0.42])
+    eye = length * (0.2 + 0.8 * abreast) * np.array([-0.3, -1.12, -0.42])
     return space(title, f"{vehicle}/course", contents, eye, np.array([0.0, 0.0, 0.04 * length]))
 
 

@@ -42,6 +42,7 @@ class Scene:
 
     log : the first piece; what has samples there is what can come. zero_ns : where elapsed begins, UTC ns.
     world : the entity. about : latitude and longitude, deg, that places are drawn about; default: the log's origin.
+    moved : m to the north and to the east that all but the map is drawn away from where it was.
     has_hull : whether the attitude is known. track : Thinned rows of north, east, down, m, the phase's code, and the
     number of the stretch. stretches : of the track. currents : Thinned rows of place and current, north and east.
     positions : Thinned rows of latitude and longitude.
@@ -54,11 +55,13 @@ class Scene:
         world: str = "/world",
         colour: look.Colour | None = None,
         about: tuple[float, float] | None = None,
+        moved: tuple[float, float] = (0.0, 0.0),
     ) -> None:
         self._log, self._zero_ns, self._world, self._colour = log, zero_ns, world, colour
         own = origin(log)
         self._about = about if own is not None and about is not None else own
         self._own = None if about is None or about == own else own
+        self._moved = np.array([*moved, 0.0])
         self._names = ("north", "east", "down" if "down" in log else "depth")
         self.has_hull = len(log.together(*ANGLES)[0]) > 0
         self.track, self.positions, self.currents = (Thinned(MOST_POINTS) for _ in range(3))
@@ -97,7 +100,7 @@ class Scene:
         times, places = self.places(piece)
         self._keep(piece, times, places)
         if len(times):
-            yield self._over(self.vehicle, times, rr.Transform3D.columns(translation=places))
+            yield self._over(self.vehicle, times, rr.Transform3D.columns(translation=places + self._moved))
             tall = np.ones((len(times), 3))
             tall[:, 2] = np.maximum(places[:, 2], 0.01)  # a scale of nothing is none
             yield self._over(f"{self.vehicle}/plumb", times, rr.Transform3D.columns(scale=tall))
@@ -127,6 +130,11 @@ class Scene:
         if self._own is not None and self._about is not None and len(times):
             north, east = track_of_geodetic(*geodetic_of_track(north, east, *self._own), *self._about)
         return times, np.stack([north, east, down], axis=-1)
+
+    def drawn_track(self) -> Array:
+        """Rows of ``track`` as they are drawn."""
+        rows = self.track.rows()
+        return np.column_stack([rows[:, :3] + self._moved, rows[:, 3:]]) if len(rows) else rows
 
     def rail(self) -> list[Chunk]:
         """The line that the mass slides on, as far as it slid."""
