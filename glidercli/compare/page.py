@@ -291,19 +291,19 @@ def _track(comparison: Comparison, drawn: Plots, parts: Sequence[Mapping[str, An
             f'<div class="controls" role="group" aria-label="View of the tracks"><span class="buttons">{buttons}</span>'
             f"</div></figure></div>\n"
         )
-    return text + "".join(_distances(escaped(part["name"]), part["track"]) for part in parts if part.get("track"))
+    return text + "".join(_distances(part["name"], part["track"]) for part in parts if part.get("track"))
 
 
 def _distances(name: str, track: Mapping[str, Any]) -> str:
     """Tables of how far apart the tracks are."""
     inside = {key: one for key, one in track.items() if isinstance(one, Mapping)}
     errors = [{"track": key, **flat(one)} for key, one in inside.items() if "rmse" in one]
-    origin = f" ({escaped(str(track['origin']))})" if track.get("origin") else ""
+    origin = f" ({track['origin']})" if track.get("origin") else ""
     text = table(f"{name}: distance of the simulated track from the measured one{origin}", errors)
     if track.get("relative"):
         text += table(f"{name}: error of the way made good over a time", [flat(row) for row in track["relative"]])
     others = [{"track": key, **flat(one)} for key, one in inside.items() if "rmse" not in one]
-    return text + "".join(table(f"{name}: {escaped(str(row['track']))} of the track", [row]) for row in others)
+    return text + "".join(table(f"{name}: {row['track']} of the track", [row]) for row in others)
 
 
 def _of(shorts: Sequence[str], numbers: Sequence[int]) -> str:
@@ -340,7 +340,7 @@ def _errors(comparison: Comparison, parts: Sequence[Mapping[str, Any]]) -> str:
             rows.append({"channel": name.replace("_", " "), "unit": _unit(units[0]), **rmse, "closest": closest})
         text += table("RMSE of every simulation side by side", rows)
     for part in parts:
-        name = escaped(part["name"])
+        name = part["name"]
         for caption, channels in (
             (f"{name}: errors over the whole flight", part["channels"]),
             (f"{name}: on dives of the measured log", part["phases"]["dive"]),
@@ -378,15 +378,13 @@ def _events(parts: Sequence[Mapping[str, Any]]) -> str:
             }
             more = {key: one[key] for key in one if key not in ("name", "measured", "simulated")}
             rows.append({"event": one["name"], **sides, **flat(more)})
-        text += table(f"{escaped(part['name'])}: events in both logs, or in one of them", rows)
+        text += table(f"{part['name']}: events in both logs, or in one of them", rows)
     return text
 
 
 def _tables(caption: str, parts: Sequence[Mapping[str, Any]], key: str) -> str:
     return "".join(
-        table(f"{escaped(part['name'])}: {caption.lower()}", [flat(row) for row in part[key]])
-        for part in parts
-        if part.get(key)
+        table(f"{part['name']}: {caption.lower()}", [flat(row) for row in part[key]]) for part in parts if part.get(key)
     )
 
 

@@ -123,7 +123,7 @@
     }];
   }
 
-  const farther = (width, height) => Math.max(1, 1.5 * height / width); // all of the scene in a narrow frame
+  const farther = (width, height) => Math.max(1, 1.7 * height / width); // all of the scene in a narrow frame
 
   function track(width) {
     const extents = ["east", "north", "depth"].map((key) => {
