@@ -29,6 +29,8 @@ __all__ = ["page", "save"]
 _VERDICTS = {"agrees": "agrees", "agrees, as given": "open", "disagrees": "disagrees", "not simulated": "open"}
 _ERRORS = ("unit", "n", "rmse", "mae", "bias", "std", "max", "correlation", "nrmse")
 
+_RECORDED = ("measured", "derived")
+
 MOST_METADATA = 100
 """Texts that a log says of itself that are shown."""
 
@@ -115,12 +117,12 @@ def _title(comparison: Comparison) -> str:
 
 def _shorts(comparison: Comparison) -> list[str]:
     """What the plots call each log: short, and no text of the log's."""
-    words = [run.side.origin for run in comparison.runs]
+    words = ["compared" if run.side.origin in _RECORDED else run.side.origin for run in comparison.runs]
     if len(words) > 1:
         words = [f"{word} {count}" for count, word in enumerate(words, start=1)]
     if isinstance(comparison.against, Facts):
         return words
-    return ["measured", *("compared" if word == "measured" else word for word in words)]
+    return ["measured", *words]
 
 
 def _sides(comparison: Comparison) -> str:
@@ -135,6 +137,8 @@ def _sides(comparison: Comparison) -> str:
 def _side(side: Side, colour: int) -> str:
     words = {"published": "Published values", "reconstruction": "A reconstruction"}
     kind = words.get(side.origin, side.origin.capitalize())
+    if colour >= 0 and side.origin in _RECORDED:
+        kind += ", stands here as a simulation:"
     remade = ""
     if side.reconstruction:
         what = "Reconstruction" if side.origin == "reconstruction" else "Made with a reconstruction"

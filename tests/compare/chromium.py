@@ -23,7 +23,7 @@ FLAGS = (
     "--no-first-run", "--disable-background-networking", "--force-color-profile=srgb",
     "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
 )  # fmt: skip
-PATIENCE = 60.0
+PATIENCE = 20.0
 """s; much more than anything takes, so that a busy machine is no failure."""
 
 

@@ -184,6 +184,7 @@
     }
     if (chart.wired) return;
     chart.wired = true;
+    chart.place.querySelector(".plot-container").setAttribute("aria-hidden", "true"); // the label tells it
     chart.place.on("plotly_relayout", (change) => {
       if (chart.timed && change["xaxis.range[0]"] !== undefined) show([change["xaxis.range[0]"], change["xaxis.range[1]"]], chart);
       const camera = change["scene.camera"];
@@ -194,6 +195,10 @@
     });
     if (chart.timed) chart.place.on("plotly_doubleclick", () => show(time.whole));
   }
+  // The page scrolls over every plot: Plotly keeps wheel and finger to itself over a 3-D one.
+  charts.forEach((chart) => ["wheel", ...(touch ? ["touchstart", "touchmove"] : [])].forEach((kind) => {
+    chart.place.addEventListener(kind, (event) => event.stopPropagation(), { capture: true, passive: true });
+  }));
   const drawAll = () => charts.forEach(draw);
 
   function ends() {
@@ -272,10 +277,12 @@
       place.classList.remove("pictured");
       place.querySelectorAll(":scope > img").forEach((picture) => picture.remove());
     });
-    drawAll();
+    requestAnimationFrame(drawAll); // once the page is as wide as its window again
   });
 
   drawAll();
+  const scratch = document.getElementById("js-plotly-tester"); // where Plotly measures texts
+  if (scratch) scratch.setAttribute("aria-hidden", "true");
   let width = innerWidth;
   addEventListener("resize", () => {
     if (innerWidth === width || printing) return;
