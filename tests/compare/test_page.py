@@ -355,3 +355,8 @@ def test_importing_compare_reads_no_page_and_no_library() -> None:
     code = "import sys, glidercli.compare; print([m for m in sys.modules if 'page' in m and 'glidercli' in m])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
     assert done.stdout.strip() == "[]"
+
+
+def test_the_library_is_the_published_one() -> None:
+    library = (ROOT / "glidercli" / "compare" / "page_files" / "plotly-gl3d.min.js").read_bytes()
+    assert hashlib.sha256(library).hexdigest() in (ROOT / "docs" / "dependencies.md").read_text()
