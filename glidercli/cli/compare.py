@@ -51,7 +51,7 @@ def compare(
     ] = None,
     cache: CacheOption = None,
     columns: ColumnsOption = None,
-    output: Annotated[list[Path] | None, output_option(".csv .json .png .svg .pdf")] = None,
+    output: Annotated[list[Path] | None, output_option(".csv .json .png .svg .pdf .html")] = None,
     force: Force = False,
     json: Json = False,
     quiet: Quiet = False,

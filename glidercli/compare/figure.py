@@ -10,13 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli import pictures
-from glidercli.channels import CHANNELS
 from glidercli.compare.bands import BAND, draw_facts
+from glidercli.compare.drawn import TURNED, breaks, clock, drawn_values, panels, span, unit_of
 from glidercli.compare.facts import Facts
 from glidercli.errors import InputError
 from glidercli.log import Channel, Log
-from glidercli.residuals import on_circle, table_values
-from glidercli.units import HOUR, NANOSECOND
+from glidercli.residuals import table_values
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,9 +24,6 @@ if TYPE_CHECKING:
     from glidercli.compare.comparison import Comparison, Side
 
 __all__ = ["figure", "save"]
-
-PANELS = ("depth", "pitch", "roll", "heading", "mass_position", "mass_rotation")
-"""Channels shown where present, unless others were asked for."""
 
 MOST_PANELS = 8
 """Panels that stay legible on one page; a figure shows the first ones and says how many it leaves out."""
@@ -54,7 +50,7 @@ def save(comparison: Comparison, path: Path, description: str) -> None:
 def _drawn(comparison: Comparison) -> Figure:
     from matplotlib.figure import Figure
 
-    names = _panels(comparison)
+    names = panels(comparison)
     if not names:
         raise InputError(comparison.runs[0].side.name, "has none of the channels that the figure would show")
     left_out, names = len(names) - len(names[:MOST_PANELS]), names[:MOST_PANELS]
@@ -71,7 +67,7 @@ def _drawn(comparison: Comparison) -> Figure:
         rows, columns, left=0.1, right=0.985, top=1.0 - head / height, bottom=foot / height,
         hspace=0.24 if measured is not None else 0.3, wspace=0.28,
     )  # fmt: skip
-    zero, unit, scale = _clock(comparison)
+    zero, unit, scale = clock(comparison)
     main: dict[str, Axes] = {}
     lowest = []
     for number, name in enumerate(names):
@@ -91,7 +87,7 @@ def _drawn(comparison: Comparison) -> Figure:
     since = "the first log's first sample" if measured is not None else "the first sample"
     if measured is not None:
         for axes in lowest:
-            axes.set_xlim(_span(comparison, measured, names, zero, scale))
+            axes.set_xlim(span(comparison, measured, names, zero, scale))
     for axes in lowest[-columns:]:
         axes.set_xlabel(f"time, {unit}, from {since}")
     notes: list[str] = []
@@ -115,86 +111,32 @@ def _remarks(comparison: Comparison, left_out: int) -> list[str]:
     return [line for text in dict.fromkeys(said) for line in textwrap.wrap(text, _FOOT)]
 
 
-def _panels(comparison: Comparison) -> list[str]:
-    """Names of the channels to show."""
-    if isinstance(comparison.against, Facts):
-        concerned = [one.fact.channel for one in comparison.runs[0].facts if one.fact.channel]
-        concerned += ["density" for one in comparison.runs[0].facts if one.fact.quantity == "density_change"]
-        wanted = list(dict.fromkeys([*PANELS, *concerned]))
-        logs = [run.log for run in comparison.runs]
-    else:
-        compared = {name for run in comparison.runs for name in run.residuals}
-        wanted = [*PANELS, *(name for name in CHANNELS if name in compared and name not in PANELS)]
-        if compared.intersection(PANELS):
-            wanted = list(PANELS)
-        logs = [comparison.against, *(run.log for run in comparison.runs)]
-    if comparison.chosen is not None:
-        wanted = list(comparison.chosen)
-    return [name for name in wanted if any(name in log and len(log[name]) for log in logs)]
-
-
-def _clock(comparison: Comparison) -> tuple[int, str, float]:
-    """Zero of the time axis, UTC ns; its unit; and that unit per ns."""
-    logs = [run.log for run in comparison.runs]
-    if isinstance(comparison.against, Log):
-        logs = [comparison.against]
-    zero = min(log.start_ns for log in logs)
-    long = max(log.end_ns for log in logs) - zero > 4 * HOUR / NANOSECOND
-    return zero, "h" if long else "s", NANOSECOND / (HOUR if long else 1.0)
-
-
-def _span(comparison: Comparison, measured: Log, names: list[str], zero: int, scale: float) -> tuple[float, float]:
-    """Ends of the time axis: those of the samples compared, else of the measured or the simulated channels shown."""
-    runs = comparison.runs
-    compared = [run.residuals[name].time_ns for run in runs for name in names if name in run.residuals]
-    shown = [times for times in compared if len(times)]
-    for logs in ([measured], [run.log for run in runs]):
-        shown = shown or [log[name].time_ns for log in logs for name in names if name in log and len(log[name])]
-    first, last = min(int(t[0]) for t in shown), max(int(t[-1]) for t in shown)
-    margin = max(last - first, round(1.0 / NANOSECOND)) * 0.02
-    return (first - zero - margin) * scale, (last - zero + margin) * scale
-
-
 def _curves(axes: Axes, comparison: Comparison, name: str, zero: int, scale: float) -> None:
     """One channel of every log that has it."""
     added_up = isinstance(comparison.against, Facts)  # a published turn may be more than a circle
     if isinstance(comparison.against, Log) and name in comparison.against:
         channel = comparison.against[name]
-        _line(axes, channel, _drawn_values(channel), zero, scale, comparison.max_gap, MEASURED, "-", 1.6)
+        _line(axes, channel, drawn_values(channel), zero, scale, comparison.max_gap, MEASURED, "-", 1.6)
     for number, run in enumerate(comparison.runs):
         if name in run.log and len(run.log[name]):
             channel = run.log[name]
-            values = table_values(channel) if added_up else _drawn_values(channel)
+            values = table_values(channel) if added_up else drawn_values(channel)
             _line(axes, channel, values, zero, scale, comparison.max_gap, *_look(number), 1.1)
     axes.set_title(name.replace("_", " "), loc="left", pad=3)
-    axes.set_ylabel("deg, turns added up" if added_up and name == "heading" else _unit(name))
-    if name in ("depth", "down", "pressure"):
+    axes.set_ylabel("deg, turns added up" if added_up and name == "heading" else unit_of(name))
+    if name in TURNED:
         axes.invert_yaxis()
-
-
-def _drawn_values(channel: Channel) -> NDArray[np.float64]:
-    """Values in the table's unit; a heading from 0 to 360 deg, whatever its log's custom."""
-    values = channel.values * CHANNELS[channel.name].factor
-    return values % 360.0 if channel.name == "heading" else values
 
 
 def _line(
     axes: Axes, channel: Channel, values: NDArray[np.float64], zero: int, scale: float, max_gap: float, colour: str,
     style: Any, width: float,
 ) -> None:  # fmt: skip
-    """A line through the samples; few get dots.
-
-    It is broken where they are further apart than max_gap, s, and than usual, and where an angle goes round.
-    """
+    """A line through the samples, broken as ``breaks`` says; few get dots."""
     time = (channel.time_ns - zero) * scale
-    steps = np.diff(channel.time_ns) * NANOSECOND
-    usual = float(np.median(steps)) if len(steps) else 0.0
-    apart = steps > max(max_gap, 3.0 * usual)
-    if on_circle(channel.name):
-        apart |= np.abs(np.diff(values)) > 180.0
-    breaks = np.flatnonzero(apart) + 1
+    broken = breaks(channel, values, max_gap)
     axes.plot(
-        np.insert(time, breaks, np.nan), np.insert(values, breaks, np.nan), color=colour, linestyle=style,
+        np.insert(time, broken, np.nan), np.insert(values, broken, np.nan), color=colour, linestyle=style,
         linewidth=width, marker="." if len(time) <= 60 else "", markersize=3.0,
     )  # fmt: skip
 
@@ -215,18 +157,13 @@ def _errors(axes: Axes, comparison: Comparison, name: str, zero: int, scale: flo
     if high - low < least:  # rounding errors are no signal
         axes.set_ylim(-least, least)
         axes.set_yticks([0.0])
-    axes.set_ylabel(f"error, {_unit(name)}".rstrip(", "))
+    axes.set_ylabel(f"error, {unit_of(name)}".rstrip(", "))
     axes.yaxis.set_major_formatter(lambda value, _: f"{value:.4g}".replace("-", "−"))
 
 
 def _look(number: int) -> tuple[str, Any]:
     """Colour and line style of a simulated log, each other than its neighbour's."""
     return SIMULATED[number % len(SIMULATED)], STYLES[number % len(STYLES)]
-
-
-def _unit(name: str) -> str:
-    unit = CHANNELS[name].column_unit
-    return "" if unit == "1" else unit
 
 
 def _heading(drawing: Figure, comparison: Comparison, height: float, notes: list[str]) -> None:

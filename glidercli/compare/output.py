@@ -1,4 +1,4 @@
-"""How is a comparison kept? As a table (.csv), a document (.json) or a figure (.png, .svg, .pdf)."""
+"""How is a comparison kept? As a table (.csv), a document (.json), a figure (.png, .svg, .pdf) or a page (.html)."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["SUFFIXES", "write"]
 
-SUFFIXES = (".csv", ".json", ".png", ".svg", ".pdf")
+SUFFIXES = (".csv", ".json", ".png", ".svg", ".pdf", ".html")
 """Endings of the outputs that ``write`` makes."""
 
 _ERRORS = ("unit", "n", "rmse", "mae", "bias", "std", "max", "max_time_utc", "correlation", "nrmse")
@@ -52,6 +52,10 @@ def write(comparison: Comparison, *paths: Path, provenance: dict[str, Any], forc
                 _write_csv(comparison, part)
             elif kind == ".json":
                 part.write_text(_json({**document(comparison), "provenance": provenance}), encoding="utf-8")
+            elif kind == ".html":
+                from glidercli.compare.page import save as save_page
+
+                save_page(comparison, part, provenance)
             else:
                 from glidercli.compare.figure import save
 

@@ -177,7 +177,7 @@ def test_the_csv_of_facts(tmp_path: Path) -> None:
 def test_outputs_that_cannot_be_written(tmp_path: Path) -> None:
     found = compare(flight(), flight("simulated"))
     with pytest.raises(OutputError, match=r"allowed: \.csv \.json \.png \.svg \.pdf"):
-        write(found, tmp_path / "report.html", provenance={})
+        write(found, tmp_path / "report.docx", provenance={})
     (tmp_path / "errors.csv").write_text("kept")
     with pytest.raises(OutputError, match="exists"):
         write(found, tmp_path / "errors.csv", provenance={})

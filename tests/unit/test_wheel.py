@@ -37,3 +37,7 @@ def test_the_trial_flies_from_a_wheel(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines()[0].startswith(str(installed))
     assert (elsewhere / "trial.csv").stat().st_size > 0
+    command[3:] = ["compare", "south-china-sea-2011", "trial.csv", "--quiet", "-o", "page.html"]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=elsewhere, env=environment)
+    assert done.returncode == 0, done.stderr
+    assert "plotly.js" in (elsewhere / "page.html").read_text(encoding="utf-8")
