@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from glidercli.log import Log
+from glidercli.places import track_of_geodetic
 
 __all__ = [
     "bottom", "drawn_eccentricity", "hull_size", "mass_notes", "moves_mass", "number", "origin", "slide_zero",
+    "too_far",
 ]  # fmt: skip
 
+TOO_FAR, LEAST_SIZE = 10.0, 1000.0
+"""Times the size of the larger track, of at least so many m: from there on a track is under a tenth of the picture."""
 STAND_IN = (2.0, 0.22)  # m, length and diameter of a usual glider
 
 
@@ -70,3 +76,13 @@ def bottom(log: Log) -> float | None:
     """Depth of the bottom, m, where the log tells it."""
     depth = number(log, "bottom_depth_m")
     return depth if depth is not None and depth > 0.0 else None
+
+
+def too_far(log: Log, other: Log) -> float | None:
+    """How far apart two logs' origins are, m, where a scene of both would show neither; else None."""
+    here, there = origin(log), origin(other)
+    if here is None or there is None:
+        return None
+    apart = float(np.hypot(*track_of_geodetic(*there, *here)))
+    sizes = [float(np.ptp(one[name].values)) for one in (log, other) for name in ("north", "east") if name in one]
+    return apart if apart > TOO_FAR * max([*sizes, LEAST_SIZE]) else None

@@ -10,15 +10,18 @@ from glidercli.errors import OutputError
 from glidercli.files import atomic
 from glidercli.log import Log
 from glidercli.logio.mcap.layouts import LAYOUTS, layout, sight_of
+from glidercli.logio.mcap.reader import Together, together_in
 
-__all__ = ["LAYOUTS", "write_layouts"]
+__all__ = ["LAYOUTS", "together_in", "write_layouts"]
 
 
-def write_layouts(folder: Path, force: bool = False, log: Log | None = None) -> list[Path]:
+def write_layouts(
+    folder: Path, force: bool = False, log: Log | None = None, together: Together | None = None
+) -> list[Path]:
     """Write each layout to FOLDER/glider-NAME.json, which is made if it is not there; all of them or none.
 
     force : replace files that exist; without it that is an OutputError. log : a flight that the view of the whole is to
-    fit; every other can be opened, too.
+    fit; every other can be opened, too. together : what its file holds beside it, see ``together_in``.
     """
     if folder.exists() and not folder.is_dir():
         raise OutputError(folder, "is a file; a folder is needed")
@@ -31,5 +34,5 @@ def write_layouts(folder: Path, force: bool = False, log: Log | None = None) -> 
     with contextlib.ExitStack() as pending:
         parts = {name: pending.enter_context(atomic(path, force)) for name, path in paths.items()}
         for name, part in parts.items():
-            part.write_text(json.dumps(layout(name, sight), indent=2) + "\n", encoding="utf-8")
+            part.write_text(json.dumps(layout(name, sight, together), indent=2) + "\n", encoding="utf-8")
     return list(paths.values())

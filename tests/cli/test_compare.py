@@ -155,7 +155,7 @@ def test_dash_is_json_on_stdout(logs) -> None:
     assert json.loads(result.stdout) == json.loads(glider(*logs, "--json").stdout)
 
 
-@pytest.mark.parametrize("name", ["report.html", "overlay.rrd", "errors"])
+@pytest.mark.parametrize("name", ["report.html", "overlay.nc", "errors"])
 def test_an_unknown_output_lists_what_is_allowed(tmp_path: Path, logs, name: str) -> None:
     assert ".csv .json .png .svg .pdf" in failed(glider(*logs, "-o", tmp_path / name), 1)
 

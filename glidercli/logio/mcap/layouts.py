@@ -10,6 +10,7 @@ MPL-2.0; facts only). The two differ in the key of a panel's title alone.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,6 +18,7 @@ import numpy as np
 from glidercli.channels import CHANNELS
 from glidercli.log import Log
 from glidercli.logio.mcap.primitives import MAP, PLACE
+from glidercli.logio.mcap.reader import Together
 from glidercli.logio.mcap.topics import field_names
 
 __all__ = ["LAYOUTS", "Sight", "layout", "sight_of"]
@@ -31,7 +33,10 @@ TITLE_KEYS = {"foxglove": "foxglovePanelTitle", "lichtblick": "lichtblickPanelTi
 NEAR = ("vehicle", "movable_mass", "rudder", "current", "track", "surface", "bottom")
 FAR = ("vehicle", "movable_mass", "rudder", "track", "surface", "bottom", "fixes", "current_profile", "current_average")
 """The topics /viz/NAME that are drawn about the hull, and of the whole flight; a viewer draws none unless told to."""
+MOST = 4
+"""Plots above one another."""
 COLOURS = ("#4e98e2", "#f5774d", "#5fc27e", "#b98cff", "#f0d05a")
+MORE_COLOURS = ("#5ae1cd", "#f06262", "#ff9edb", "#aab2be")
 
 Tree = str | dict[str, Any]
 
@@ -57,8 +62,9 @@ def sight_of(log: Log) -> Sight:
     return Sight((east_0, north_0, up_0), 1.2 * max(size, 10.0))
 
 
-def layout(name: str, sight: Sight | None = None) -> dict[str, Any]:
-    """The layout of one of LAYOUTS. sight : of the panel that shows the whole flight."""
+def layout(name: str, sight: Sight | None = None, together: Together | None = None) -> dict[str, Any]:
+    """The layout of one of LAYOUTS. sight : of the panel that shows the whole flight. together : what a file of several
+    flights holds; all of them are then drawn and plotted, and their differences from the first."""
     panels: dict[str, dict[str, Any]] = {
         "3D!hull": _view(PLACE, "follow-pose", Sight(distance=4.0), NEAR),
         "3D!track": _view(MAP, "follow-none", sight or Sight(), FAR),
@@ -103,6 +109,7 @@ def layout(name: str, sight: Sight | None = None) -> dict[str, Any]:
     }  # fmt: skip
     for panel, settings in panels.items():
         settings[TITLE_KEYS[name]] = titles[panel]
+    differences = {} if together is None else _add_others(panels, together, TITLE_KEYS[name])
     panels["Tab!where"] = _tabs({"track": "3D!track", "map": "map!track"})
     panels["Tab!plots"] = _tabs(
         {
@@ -111,6 +118,7 @@ def layout(name: str, sight: Sight | None = None) -> dict[str, Any]:
             "water": _column("Plot!temperature", "Plot!salinity", "Plot!density", "Plot!conductivity"),
             "current": "Plot!current",
             "motion": _column("Plot!speed", "Plot!flow"),
+            **differences,
         }
     )
     panels["Tab!words"] = _tabs({
@@ -123,6 +131,52 @@ def layout(name: str, sight: Sight | None = None) -> dict[str, Any]:
         "configById": panels, "globalVariables": {}, "userNodes": {}, "playbackConfig": {"speed": 5},
         "layout": _split("row", left, right, 52.0),
     }  # fmt: skip
+
+
+def _add_others(panels: dict[str, dict[str, Any]], together: Together, title_key: str) -> dict[str, Tree]:
+    """Draw and plot the flights beside the first, too; the tabs of their differences from it.
+
+    panels : those of the first flight, which are added to. title_key : of a panel's title.
+    """
+    for panel, settings in panels.items():
+        if panel.startswith("3D!"):
+            topics = [f"/beside/{number}{topic}" for number in together.names for topic in settings["topics"]]
+            settings["topics"] |= {topic: {"visible": True} for topic in topics if topic in together.topics}
+        elif "paths" in settings:
+            settings["paths"] += list(_of_others(settings["paths"], together))
+    tabs: dict[str, Tree] = {}
+    for group in dict.fromkeys(spec.group for spec in CHANNELS.values()):
+        plots = []
+        for spec in (spec for spec in CHANNELS.values() if spec.group == group):
+            paths = [
+                _path(f"/difference/{number}/{spec.name}.{spec.column}", f"{called} less the first", _shade(number))
+                for number, called in together.names.items()
+                if f"/difference/{number}/{spec.name}" in together.topics
+            ]
+            if paths:
+                title = f"difference: {spec.name.replace('_', ' ')}, {spec.column_unit}"
+                panels[f"Plot!difference_{spec.name}"] = {**_drawn(paths), title_key: title}
+                plots.append(f"Plot!difference_{spec.name}")
+        for first in range(0, len(plots), MOST):
+            title = f"differences: {group}" + (f" {first // MOST + 1}" if first else "")
+            tabs[title] = _column(*plots[first : first + MOST])
+    return tabs
+
+
+def _of_others(paths: Sequence[dict[str, Any]], together: Together) -> Iterator[dict[str, Any]]:
+    """The same message paths of the flights beside the first, where they have the topic; lines in other colours."""
+    for number, called in together.names.items():
+        for place, path in enumerate(paths):
+            value = f"/beside/{number}{path['value']}"
+            if value.split(".")[0] in together.topics:
+                drawn = {"color": _shade(len(paths) * number + place)} if "color" in path else {}
+                yield {**path, "value": value, "label": f"{path['label']}, {called}", **drawn}
+
+
+def _shade(number: int) -> str:
+    """A colour for the line of a flight beside the first."""
+    shades = (*COLOURS, *MORE_COLOURS)
+    return shades[number % len(shades)]
 
 
 def _view(frame: str, follow: str, sight: Sight, shown: tuple[str, ...]) -> dict[str, Any]:
@@ -146,6 +200,11 @@ def _plot(*names: str) -> dict[str, Any]:
         spec = CHANNELS[name]
         label = name.replace("_", " ")
         paths.append(_path(f"/glider/{spec.group}.{field_names(spec)[-1]}", label, shade))
+    return _drawn(paths)
+
+
+def _drawn(paths: list[dict[str, Any]]) -> dict[str, Any]:
+    """A plot of message paths against time."""
     return {
         "paths": paths, "showXAxisLabels": True, "showYAxisLabels": True, "showLegend": True,
         "legendDisplay": "floating", "showPlotValuesInLegend": False, "isSynced": True, "xAxisVal": "timestamp",

@@ -25,6 +25,7 @@ from glidercli.logio.mcap.primitives import (
     single,
     text,
 )  # fmt: skip
+from glidercli.logio.mcap.side import ALONE, Side
 from glidercli.logio.round_steps import nice
 
 __all__ = ["bottom", "current_average", "current_profile", "fix_marks", "surface", "track"]
@@ -53,13 +54,15 @@ PHASE_COLOURS: dict[str, Colour] = {
 }  # fmt: skip
 
 
-def track(rows: Array, count: int, origin: str, time_ns: int) -> Messages:
+def track(rows: Array, count: int, origin: str, time_ns: int, side: Side = ALONE) -> Messages:
     """/viz/track: the whole way as one line, in the colours of its phases, else of depth; its two ends are named.
 
     rows : (n, 4 or more) of the ``count`` samples: north, east, down, m, and the phase's code, NaN where there is none.
     """
     places, codes = rows[:, :3], rows[:, 3]
-    if np.isin(codes, np.arange(len(PHASES))).all():
+    if side.colour is not None:
+        palette, chosen, meaning = [colour(side.colour)], np.zeros(len(rows), np.int64), f"one for {side.name}"
+    elif np.isin(codes, np.arange(len(PHASES))).all():
         palette = [colour(PHASE_COLOURS[name]) for name in PHASES]
         chosen, meaning = (
             codes.astype(np.int64),
@@ -71,7 +74,11 @@ def track(rows: Array, count: int, origin: str, time_ns: int) -> Messages:
         chosen = np.clip(places[:, 2] / deepest * 31.0, 0.0, 31.0).astype(np.int64)
         meaning = f"by depth, light at the surface, dark at {deepest:.0f} m"
     way = {**line(places, WHITE), "colors": [palette[i] for i in chosen.tolist()]}
-    ends: list[Any] = [text("start", GREEN, *places[0].tolist()), text("end", ORANGE, *places[-1].tolist())]
+    inks, whose = (side.colour or GREEN, side.colour or ORANGE), f" {side.name}" if side.name else ""
+    ends: list[Any] = [
+        text(word + whose, ink, *place.tolist())
+        for word, ink, place in zip(("start", "end"), inks, places[[0, -1]], strict=True)
+    ]
     notes = {"points": f"{len(places)} of {count}", "origin": origin, "colours": meaning}
     content = scene(time_ns, NED, "track", notes, lines=[way], texts=ends if len(places) > 1 else ends[:1])
     return single("/viz/track", time_ns, content)

@@ -5,13 +5,14 @@ The first stands where it would stand alone; what belongs to the others stands u
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from glidercli.log import Log
-from glidercli.logio.drawable import bottom, origin
+from glidercli.logio.drawable import bottom, origin, too_far
+from glidercli.logio.labels import labels
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun import still
 from glidercli.logio.rerun.about import about_several
@@ -19,7 +20,7 @@ from glidercli.logio.rerun.axes import Extent, joined
 from glidercli.logio.rerun.chart import Line, chart
 from glidercli.logio.rerun.clocks import aligned
 from glidercli.logio.rerun.contents import PIECE, header, texts
-from glidercli.logio.rerun.differences import Difference, differences, reference_first
+from glidercli.logio.rerun.differences import Difference, differences, reference_first, taken
 from glidercli.logio.rerun.hull import hull_notes
 from glidercli.logio.rerun.panels import ASPECT
 from glidercli.logio.rerun.plots import Plots, lines
@@ -27,36 +28,41 @@ from glidercli.logio.rerun.scene import Scene
 from glidercli.logio.rerun.sea import Sea
 from glidercli.logio.rerun.settling import columns, row
 from glidercli.logio.rerun.side_by_side import Pair, Side, side_by_side
-from glidercli.places import track_of_geodetic
+from glidercli.residuals import Residuals
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
 
 __all__ = ["Beside"]
 
-TOO_FAR, LEAST_SIZE = 10.0, 1000.0
-"""Times the size of the larger track, of at least so many m: from there on a track is under a tenth of the picture."""
-
 
 class Beside:
     """The chunks of a log, which comes whole, and of others beside it.
 
     log, others : without empty channels. names : what to call each; default: its kind, numbered where that is not
-    enough. Clocks that do not overlap are shifted, see clocks.py.
+    enough. Clocks that do not overlap are shifted, see clocks.py. errors : of each other log against this one, by
+    channel, where a comparison found them; default: differences by a rule of our own, see differences.py.
     """
 
-    def __init__(self, log: Log, others: Sequence[Log], names: Sequence[str] = ()) -> None:
+    def __init__(
+        self,
+        log: Log,
+        others: Sequence[Log],
+        names: Sequence[str] = (),
+        errors: Sequence[Mapping[str, Residuals]] = (),
+    ) -> None:
+        self._errors = errors
         self._logs = [log, *(aligned(log, other) for other in others)]
         self._zero_ns = min(one.start_ns for one in self._logs)
         self._sides: list[Side] = []
         self._plots: list[Plots] = []
         self._scenes: list[Scene] = []
-        self._apart = {number: apart for number, one in enumerate(self._logs) if (apart := _too_far(log, one))}
+        self._apart = {number: apart for number, one in enumerate(self._logs) if (apart := too_far(log, one))}
         """m, from the first log's origin to that of each which is drawn from its own start."""
         for number, one in enumerate(self._logs):
             colour = look.OVERLAID[number % len(look.OVERLAID)]
             place = f"/beside/{number}" if number else ""
-            label, short = _labels(number, self._logs, names)
+            label, short = labels(number, self._logs, names)
             self._plots.append(Plots(one, self._zero_ns, place, colour, short))
             about = origin(log) if number and number not in self._apart else None
             self._scenes.append(Scene(one, self._zero_ns, f"/world{place}", colour, about))
@@ -138,8 +144,12 @@ class Beside:
     def _pair(self, number: int, notes: list[str], chunks: list[Chunk]) -> Pair:
         """How far a log is from the first, added to what is drawn and told."""
         sides = self._sides[0], self._sides[number]
-        reference, other = sides if reference_first(sides[0].log, sides[1].log) else sides[::-1]
-        found = differences(reference.log, other.log)
+        first = bool(self._errors) or reference_first(sides[0].log, sides[1].log)
+        reference, other = sides if first else sides[::-1]
+        if self._errors:
+            found = taken(self._errors[number - 1], reference.log, other.log)
+        else:
+            found = differences(reference.log, other.log)
         pair = Pair(f"{other.short} less {reference.short}", f"/difference/{number}", sides[1].colour, found)
         for one in found:
             chunks += self._drawn(one, pair)
@@ -162,24 +172,3 @@ class Beside:
         drawn = lines(1.5, **style) if pair.drawn_as_lines(one.name) else rr.SeriesPoints(**points)
         values = rr.Scalars.columns(scalars=one.values)
         return [row(entity, drawn), columns(entity, self._zero_ns, one.time_ns, values)]
-
-
-def _too_far(log: Log, other: Log) -> float | None:
-    """How far apart two logs' origins are, m, where a scene of both would show neither; else None."""
-    here, there = origin(log), origin(other)
-    if here is None or there is None:
-        return None
-    apart = float(np.hypot(*track_of_geodetic(*there, *here)))
-    sizes = [float(np.ptp(one[name].values)) for one in (log, other) for name in ("north", "east") if name in one]
-    return apart if apart > TOO_FAR * max([*sizes, LEAST_SIZE]) else None
-
-
-def _labels(number: int, logs: Sequence[Log], names: Sequence[str]) -> tuple[str, str]:
-    """What a log is called: its name and kind, and what of that is enough to tell it from the others."""
-    kinds = [log.kind for log in logs]
-    kind, alone = kinds[number], kinds.count(kinds[number]) == 1
-    if not names:
-        label = kind if alone else f"{kind} {kinds[: number + 1].count(kind)}"
-        return label, label
-    name = " ".join(names[number].split())
-    return f"{name} {kind}", kind if alone else f"{name} {logs[number].origin.upper()}"
