@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from pathlib import PurePath
 from typing import Any, NamedTuple
 
 from glidercli.compare.comparison import Comparison, Run
@@ -42,8 +43,14 @@ def overlay(comparison: Comparison, provenance: Mapping[str, Any]) -> Overlay:
     record = {**provenance, "origins": document(comparison)["origins"]}
     log = comparison.against.with_metadata(provenance=json.dumps(record, sort_keys=True))
     beside = tuple(_told(run, comparison.max_gap) for run in comparison.runs)
-    names = (comparison.measured.name, *(run.side.name for run in comparison.runs))
+    names = _short([comparison.measured.name, *(run.side.name for run in comparison.runs)])
     return Overlay(log, beside, names, tuple(run.residuals for run in comparison.runs))
+
+
+def _short(names: Sequence[str]) -> tuple[str, ...]:
+    """Names without the folders that they lie in, where these are enough to tell them apart."""
+    last = tuple(PurePath(name).name for name in names)
+    return last if all(last) and len(set(last)) == len(last) else tuple(names)
 
 
 def _told(run: Run, max_gap: float) -> Log:

@@ -20,6 +20,7 @@ from glidercli.log import Log
 from glidercli.logio.mcap.primitives import MAP, PLACE
 from glidercli.logio.mcap.reader import Together
 from glidercli.logio.mcap.topics import field_names
+from glidercli.residuals import on_circle
 
 __all__ = ["LAYOUTS", "Sight", "layout", "sight_of"]
 
@@ -149,7 +150,12 @@ def _add_others(panels: dict[str, dict[str, Any]], together: Together, title_key
         plots = []
         for spec in (spec for spec in CHANNELS.values() if spec.group == group):
             paths = [
-                _path(f"/difference/{number}/{spec.name}.{spec.column}", f"{called} less the first", _shade(number))
+                {
+                    **_path(
+                        f"/difference/{number}/{spec.name}.{spec.column}", f"{called} less the first", _shade(number)
+                    ),
+                    "showLine": not on_circle(spec.name),
+                }
                 for number, called in together.names.items()
                 if f"/difference/{number}/{spec.name}" in together.topics
             ]
@@ -158,7 +164,7 @@ def _add_others(panels: dict[str, dict[str, Any]], together: Together, title_key
                 panels[f"Plot!difference_{spec.name}"] = {**_drawn(paths), title_key: title}
                 plots.append(f"Plot!difference_{spec.name}")
         for first in range(0, len(plots), MOST):
-            title = f"differences: {group}" + (f" {first // MOST + 1}" if first else "")
+            title = f"{group} differences" + (f" {first // MOST + 1}" if first else "")
             tabs[title] = _column(*plots[first : first + MOST])
     return tabs
 
