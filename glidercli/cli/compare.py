@@ -51,7 +51,9 @@ def compare(
     ] = None,
     cache: CacheOption = None,
     columns: ColumnsOption = None,
-    output: Annotated[list[Path] | None, output_option(".csv .json .png .svg .pdf, or both flights .rrd .mcap")] = None,
+    output: Annotated[
+        list[Path] | None, output_option(".csv .json .png .svg .pdf, flights and errors to .rrd .mcap")
+    ] = None,
     force: Force = False,
     json: Json = False,
     quiet: Quiet = False,

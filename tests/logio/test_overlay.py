@@ -186,7 +186,7 @@ def test_the_others_are_there_whole_on_the_measured_clock(both: Any) -> None:
 
 
 def test_each_flight_has_frames_and_a_colour_of_its_own(both: Any) -> None:
-    comparison, _, mcap = both
+    _, _, mcap = both
     found = messages(mcap)
     colours, frames = {}, {}
     for number in range(3):
@@ -199,7 +199,7 @@ def test_each_flight_has_frames_and_a_colour_of_its_own(both: Any) -> None:
         (track,) = found[f"{place}/viz/track"][0][1].entities
         assert track.frame_id == "map_ned"
         shades = {(c.r, c.g, c.b) for c in track.lines[0].colors} | {
-            (c.color.r, c.color.g, c.color.b) for c in entity.cylinders
+            (c.color.r, c.color.g, c.color.b) for c in (*entity.cylinders, *entity.triangles)
         }
         assert len(shades) == 1
         colours[number] = shades.pop()

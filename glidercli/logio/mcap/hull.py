@@ -66,8 +66,9 @@ def vehicle(size: Size, kind: str, time_ns: int, side: Side = ALONE) -> Messages
     }
     content = scene(
         time_ns, side.frame(HULL), "vehicle", notes, cylinders=[barrel, cone], spheres=[nose],
-        triangles=[_fins(length, diameter)],
-        lines=[line(_edges(length, diameter), DARK, 1.5, 2)], texts=[text(side.name or kind, ink, z=-0.8 * length)],
+        triangles=[_fins(length, diameter, side.colour or DARK)],
+        lines=[line(_edges(length, diameter), side.colour or DARK, 1.5, 2)],
+        texts=[text(side.name or kind, ink, z=-0.8 * length)],
     )  # fmt: skip
     return single("/viz/vehicle", time_ns, content)
 
@@ -116,10 +117,10 @@ def _outlines(length: float, diameter: float) -> Array:
     return np.array([wing, wing * [1.0, -1.0, 1.0], fin]) * [length, 1.0, 1.0]
 
 
-def _fins(length: float, diameter: float) -> dict[str, Any]:
+def _fins(length: float, diameter: float, paint: Colour) -> dict[str, Any]:
     corners = _outlines(length, diameter).reshape(-1, 3)
     indices = [i for first in (0, 4, 8) for i in (first, first + 1, first + 2, first, first + 2, first + 3)]
-    return {"pose": pose(), "points": points(corners), "color": colour(DARK), "indices": indices}
+    return {"pose": pose(), "points": points(corners), "color": colour(paint), "indices": indices}
 
 
 def _edges(length: float, diameter: float) -> Array:
