@@ -34,7 +34,7 @@ def layouts(
         typer.Option(
             "--for",
             metavar="LOG",
-            help="Flight that the view of the whole fits; of a comparison.mcap, plots of all.",
+            help="Flight that the view of the whole fits; of a comparison's .mcap, plots of all.",
         ),
     ] = None,
     force: Force = False,
