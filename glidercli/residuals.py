@@ -49,6 +49,13 @@ class Residuals:
     skipped_outside: NDArray[np.bool_]
     """Which of those are outside."""
 
+    def with_gaps(self) -> tuple[NDArray[np.int64], Array]:
+        """Times of all samples in order, compared or skipped, and the errors there; NaN where one was skipped."""
+        times = np.concatenate([self.time_ns, self.skipped_ns])
+        values = np.concatenate([self.error, np.full(len(self.skipped_ns), np.nan)])
+        order = np.argsort(times)
+        return times[order], values[order]
+
     def where(self, chosen: NDArray[np.bool_], skipped: NDArray[np.bool_]) -> Residuals:
         """The part of the samples compared and of those skipped that the masks choose."""
         outside = self.skipped_outside[skipped]

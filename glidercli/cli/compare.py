@@ -51,7 +51,9 @@ def compare(
     ] = None,
     cache: CacheOption = None,
     columns: ColumnsOption = None,
-    output: Annotated[list[Path] | None, output_option(".csv .json .png .svg .pdf .html")] = None,
+    output: Annotated[
+        list[Path] | None, output_option(".csv .json .png .svg .pdf .html, flights and errors to .rrd .mcap")
+    ] = None,
     force: Force = False,
     json: Json = False,
     quiet: Quiet = False,
@@ -60,11 +62,12 @@ def compare(
     """Errors of a simulation by channel and phase, or its verdicts on published values."""
     from glidercli.cli.printing import json_text, plain, say, shown, warn
     from glidercli.cli.progress import progress
-    from glidercli.compare import SUFFIXES, matching, write
+    from glidercli.compare import SUFFIXES, matching, overlay, write
     from glidercli.compare import compare as compared
     from glidercli.compare.align import MOST_OFFSET
-    from glidercli.errors import InputError, UsageError
+    from glidercli.errors import InputError, OutputError, UsageError
     from glidercli.files import check_not_inputs, check_outputs
+    from glidercli.logio import VIEWERS, saving
     from glidercli.provenance import provenance
 
     if not max_gap > 0.0:
@@ -78,7 +81,9 @@ def compare(
     except InputError as error:
         raise UsageError(f"--channels: {error}") from error
     files = [path for path in output or [] if path != Path("-")]
-    check_outputs(files, SUFFIXES, force)
+    check_outputs(files, (*SUFFIXES, *VIEWERS), force)
+    recordings = [path for path in files if path.suffix.lower() in VIEWERS]
+    tables = [path for path in files if path not in recordings]
 
     source = LogSource(cache, columns)
     with progress("reading", "", quiet) as bar:
@@ -88,6 +93,9 @@ def compare(
         if facts is not None:
             from glidercli.compare import read_facts
 
+            if recordings:
+                told = f"not written: {facts} holds published values, which are no recording to overlay"
+                raise OutputError(recordings[0], f"{told}; a measured LOG is needed, or one of {' '.join(SUFFIXES)}")
             against = read_facts(facts)
             inputs.append(facts)
             if align != Align.NONE or offset or depth_band is not None:
@@ -110,7 +118,15 @@ def compare(
         recorded = [run.side for run in comparison.runs if run.side.origin in ("measured", "derived")]
         warn([f"{side.name} is {side.origin}, and stands here as a simulation" for side in recorded], quiet)
         record = provenance(inputs=dict.fromkeys(inputs), origin=comparison.origin)
-        write(comparison, *files, provenance=record, force=force)
+        if recordings:
+            bar.stage("writing")
+            log, beside, names, errors = overlay(comparison, record)
+            with saving(recordings, force, (), beside, names, errors) as shown_together:
+                shown_together.add(log)
+                shown_together.close(log)
+                write(comparison, *tables, provenance=record, force=force)
+        else:
+            write(comparison, *tables, provenance=record, force=force)
     for path in files:
         say(f"wrote {path}", quiet)
     if json or Path("-") in (output or []):

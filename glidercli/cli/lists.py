@@ -30,7 +30,12 @@ def layouts(
         Path | None, typer.Option("-o", "--output", metavar="FOLDER", help="Write each to FOLDER/glider-NAME.json.")
     ] = None,
     fit: Annotated[
-        str | None, typer.Option("--for", metavar="LOG", help="Flight that the view of the whole track is to fit.")
+        str | None,
+        typer.Option(
+            "--for",
+            metavar="LOG",
+            help="Flight that the view of the whole fits; of a comparison's .mcap, plots of all.",
+        ),
     ] = None,
     force: Force = False,
     json: Json = False,
@@ -40,13 +45,13 @@ def layouts(
     """List the shipped viewer layouts: name, two spaces, description; with -o, write them to import there."""
     from glidercli.cli.logs_in import LogSource
     from glidercli.errors import UsageError
-    from glidercli.logio.layouts import LAYOUTS, write_layouts
+    from glidercli.logio.layouts import LAYOUTS, together_in, write_layouts
 
     if fit is not None and output is None:
         raise UsageError("--for fits the files that -o FOLDER writes; -o FOLDER is needed")
     if output is not None:
         log = None if fit is None else LogSource().reading(fit).log
-        write_layouts(output, force, log)
+        write_layouts(output, force, log, None if fit is None else together_in(Path(fit)))
     _show(dict(LAYOUTS), "layouts", json)
 
 

@@ -13,8 +13,20 @@ from typing import Any
 from glidercli.compare.comparison import Comparison, compare, matching
 from glidercli.compare.facts import Fact, Facts, read_facts
 from glidercli.compare.output import SUFFIXES, write
+from glidercli.compare.overlay import Overlay, overlay
 
-__all__ = ["SUFFIXES", "Comparison", "Fact", "Facts", "compare", "matching", "read_facts", "write"]
+__all__ = [
+    "SUFFIXES",
+    "Comparison",
+    "Fact",
+    "Facts",
+    "Overlay",
+    "compare",
+    "matching",
+    "overlay",
+    "read_facts",
+    "write",
+]
 
 
 class _Room(types.ModuleType):

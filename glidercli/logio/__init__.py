@@ -5,9 +5,9 @@ from glidercli.logio.overview import Overview, overview
 from glidercli.logio.reading import Reading, read
 from glidercli.logio.replaying import Replay, replay
 from glidercli.logio.report import FileReport
-from glidercli.logio.writing import SUFFIXES, Saving, saving, write
+from glidercli.logio.writing import SUFFIXES, VIEWERS, Saving, saving, write
 
 __all__ = [
-    "FORMATS", "SUFFIXES", "FileReport", "Overview", "Reading", "Replay", "Saving", "overview", "read", "replay",
-    "saving", "write",
+    "FORMATS", "SUFFIXES", "VIEWERS", "FileReport", "Overview", "Reading", "Replay", "Saving", "overview", "read",
+    "replay", "saving", "write",
 ]  # fmt: skip

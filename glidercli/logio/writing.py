@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,14 +17,17 @@ from glidercli.log import Log
 from glidercli.logio.own.csv_log import CsvTable
 from glidercli.logio.own.csv_metadata import metadata_of, write_metadata
 from glidercli.provenance import provenance_json
+from glidercli.residuals import Residuals
 
-__all__ = ["SUFFIXES", "TABLES", "Saving", "saving", "write"]
+__all__ = ["SUFFIXES", "TABLES", "VIEWERS", "Saving", "saving", "write"]
 
 TABLES = (".csv", ".parquet", ".nc")
 """Endings of tables."""
 PIECE = 65536
 """Samples of a channel that a table is given at once: some 20 MB of cells."""
-SUFFIXES = (".mcap", ".rrd", *TABLES)
+VIEWERS = (".mcap", ".rrd")
+"""Endings of what viewers open."""
+SUFFIXES = (*VIEWERS, *TABLES)
 """Endings that can be written."""
 
 
@@ -35,6 +38,7 @@ def write(
     attach: Sequence[Path] = (),
     beside: Sequence[Log] = (),
     names: Sequence[str] = (),
+    errors: Sequence[Mapping[str, Residuals]] = (),
 ) -> None:
     """Save a log; the ending picks the writer: .mcap (Foxglove, Lichtblick), .rrd (Rerun), .nc (CF), .parquet, .csv.
 
@@ -42,8 +46,10 @@ def write(
 
     force : replace files that exist; without it that is an OutputError. attach : files that go into every .mcap.
     beside, names : other logs that every .rrd shows beside this one, and what each is called, see ``write_rerun``.
+    errors : of each of those by channel, as a comparison found them; every .rrd shows them as they are, and every
+    .mcap, which has this log alone without them, has the others and them, too.
     """
-    with saving([Path(path) for path in paths], force, attach, beside, names) as outputs:
+    with saving([Path(path) for path in paths], force, attach, beside, names, errors) as outputs:
         outputs.add(log)
         outputs.close(log)
 
@@ -58,6 +64,7 @@ class Saving:
         attach: Sequence[Path],
         beside: Sequence[Log] = (),
         names: Sequence[str] = (),
+        errors: Sequence[Mapping[str, Residuals]] = (),
     ) -> None:
         """Begin. parts : ending, file to write to, file of the metadata beside a CSV. Others : as for ``saving``."""
         self._viewers: list[Any] = []
@@ -78,12 +85,14 @@ class Saving:
             elif suffix == ".mcap":
                 from glidercli.logio.mcap.writer import McapLog
 
-                self._viewers.append(McapLog(pending.enter_context(part.open("wb")), attach))
+                stream = pending.enter_context(part.open("wb"))
+                together = (beside, names, errors) if errors else ()
+                self._viewers.append(McapLog(stream, attach, *together))
                 continue
             else:
                 from glidercli.logio.rerun.writer import RerunLog
 
-                self._viewers.append(RerunLog(part, beside, names))
+                self._viewers.append(RerunLog(part, beside, names, errors))
                 continue
             self._tables.append((table, part, metadata))
 
@@ -120,10 +129,11 @@ def saving(
     attach: Sequence[Path] = (),
     beside: Sequence[Log] = (),
     names: Sequence[str] = (),
+    errors: Sequence[Mapping[str, Residuals]] = (),
 ) -> Iterator[Saving]:
     """Outputs that get a log with ``add``, in pieces or whole, and then ``close``; all appear at the end, or none.
 
-    attach : files that go into every .mcap. beside, names : as for ``write``; the log is then added as a whole.
+    attach : files that go into every .mcap. beside, names, errors : as for ``write``; the log is then added as a whole.
     """
     with contextlib.ExitStack() as pending:
         parts = []
@@ -137,4 +147,4 @@ def saving(
             metadata = pending.enter_context(atomic(metadata_path(target), force)) if suffix == ".csv" else None
             parts.append((suffix, part, metadata))
         with contextlib.ExitStack() as streams:
-            yield Saving(parts, streams, attach, beside, names)
+            yield Saving(parts, streams, attach, beside, names, errors)

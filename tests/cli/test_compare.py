@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import ROOT
+from mcap.reader import make_reader
 
 GLIDER = Path(sys.executable).with_name("glider")
 START = np.datetime64("2011-07-20T04:28:00.000", "ms")
@@ -150,12 +151,51 @@ def test_outputs(tmp_path: Path, logs) -> None:
     assert glider(*logs, "-o", tmp_path / "errors.csv", "--force").returncode == 0
 
 
+def test_overlays_appear_with_the_tables_or_none_does(tmp_path: Path, logs) -> None:
+    names = ["o.rrd", "o.mcap", "e.csv"]
+    outputs = [word for name in names for word in ("-o", name)]
+    (tmp_path / "e.csv").write_text("kept")
+    assert "e.csv: exists" in failed(glider(*logs, *outputs, folder=tmp_path), 1)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["e.csv", "measured.csv", "simulated.csv"]
+    result = glider(*logs, *outputs, "--align", "start", "--force", folder=tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert all(f"wrote {name}" in result.stderr for name in names)
+    told = subprocess.run(
+        [GLIDER, "info", tmp_path / "o.mcap", "--json"], capture_output=True, text=True, timeout=120, check=True
+    )
+    assert "flights beside this one are not read: /beside/1 SIMULATED" in told.stdout
+    with (tmp_path / "o.mcap").open("rb") as stream:
+        run = next(r.metadata for r in make_reader(stream).iter_metadata() if r.name == "run")
+    record = json.loads(run["provenance"])
+    assert [Path(one["path"]).name for one in record["inputs"]] == ["measured.csv", "simulated.csv"]
+    assert record["command"][1] == "compare"
+    assert record["origins"]["measured"]["origin"] == "measured"
+
+
+def test_nothing_is_written_when_an_overlay_fails(tmp_path: Path, logs) -> None:
+    """1950 is no time of an MCAP file; what goes with it does not appear either."""
+    for log in logs:
+        log.write_text(log.read_text().replace("2011-", "1950-"))
+    before = sorted(tmp_path.iterdir())
+    outputs = ["-o", tmp_path / "o.rrd", "-o", tmp_path / "o.mcap", "-o", tmp_path / "e.csv"]
+    assert "MCAP starts at 1970" in failed(glider(*logs, *outputs), 1)
+    assert sorted(tmp_path.iterdir()) == before
+
+
+@pytest.mark.parametrize("name", ["o.rrd", "o.mcap"])
+def test_published_values_are_no_recording_to_overlay(tmp_path: Path, logs, facts: Path, name: str) -> None:
+    line = failed(glider(facts, logs[1], "-o", tmp_path / name, "-o", tmp_path / "e.csv"), 1)
+    assert f"{name}: not written: {facts} holds published values, which are no recording to overlay" in line
+    assert not (tmp_path / name).exists()
+    assert not (tmp_path / "e.csv").exists()
+
+
 def test_dash_is_json_on_stdout(logs) -> None:
     result = glider(*logs, "-o", "-")
     assert json.loads(result.stdout) == json.loads(glider(*logs, "--json").stdout)
 
 
-@pytest.mark.parametrize("name", ["report.docx", "overlay.rrd", "errors"])
+@pytest.mark.parametrize("name", ["report.docx", "overlay.nc", "errors"])
 def test_an_unknown_output_lists_what_is_allowed(tmp_path: Path, logs, name: str) -> None:
     assert ".csv .json .png .svg .pdf .html" in failed(glider(*logs, "-o", tmp_path / name), 1)
 

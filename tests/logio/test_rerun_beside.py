@@ -57,8 +57,7 @@ def test_differences_are_simulated_less_measured_at_measured_times(
     path = written(first, tmp_path, beside=[other])
     assert "without error" in told_by_the_verifier(path, tmp_path)
     known = ((MEASURED >= 30) & (MEASURED <= 400)) | ((MEASURED >= 600) & (MEASURED <= 900))
-    # 3 m deeper, which is below zero as depth is plotted
-    wanted = {"depth": -3.0, "pitch": 3.0, "ballast_volume": 3.0, "heading": 15.0, "temperature": 0.0}  # deg, cm3
+    wanted = {"depth": 3.0, "pitch": 3.0, "ballast_volume": 3.0, "heading": 15.0, "temperature": 0.0}  # deg, cm3
     for name, value in wanted.items():
         seconds, values = difference(path, name)
         np.testing.assert_allclose(seconds, MEASURED, atol=1e-6)
@@ -66,9 +65,9 @@ def test_differences_are_simulated_less_measured_at_measured_times(
         np.testing.assert_allclose(values[known], value, atol=1e-9, err_msg=name)  # rounding of turns about 360 deg
     shown = panels(path)
     which = "blue less orange" if turned else "orange less blue"
-    assert f"depth, m, {which}; deeper negative; rms 3" in shown
+    assert f"depth, m, {which}; deeper positive; rms 3" in shown
     assert f"heading, deg, {which}; rms 15" in shown
-    assert "That of depth is negative where SIMULATED is deeper, as depth is plotted." in page(path)
+    assert "That of depth is positive where SIMULATED is deeper, though depth is plotted negative down." in page(path)
     labels = ["SIMULATED", "MEASURED"] if turned else ["MEASURED", "SIMULATED"]
     assert f"blue: {labels[0]}, orange: {labels[1]}, grid 20 m" in shown
 
@@ -165,7 +164,7 @@ def test_logs_of_other_days_start_together(measured: Log, simulated: Log, tmp_pa
     seconds, values = difference(path, "depth")
     shared = np.isfinite(values)
     assert seconds[shared].max() <= 871.0
-    np.testing.assert_allclose(values[shared], -3.0 - 3.0, atol=1e-9)  # 30 s at 0.1 m/s
+    np.testing.assert_allclose(values[shared], 3.0 + 3.0, atol=1e-9)  # 30 s at 0.1 m/s
     assert "overlap" not in page(written(measured, tmp_path, "utc.rrd", beside=[simulated]))
 
 
@@ -181,7 +180,7 @@ def test_page_and_names_tell_which_is_which(measured: Log, simulated: Log, tmp_p
     assert "# again" not in text.splitlines()
     shown = panels(path)
     assert {"tracks, grid 20 m", "blue", "orange", "green"} <= shown
-    assert "depth, m, less blue; deeper negative; rms 3, 3" in shown
+    assert "depth, m, less blue; deeper positive; rms 3, 3" in shown
     assert rows(path, "/events", "TextLog:text")[2] == [["MEASURED: apogee, depth 100.0 m"]]
     assert rows(path, "/beside/2/events", "TextLog:text")[2] == [["*two* SIMULATED: apogee, depth 100.0 m"]]
 

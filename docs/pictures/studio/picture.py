@@ -25,6 +25,7 @@ from urllib.parse import quote
 
 from glidercli.logio import read
 from glidercli.logio.mcap.layouts import layout, sight_of
+from glidercli.logio.mcap.reader import together_in
 
 HERE = Path(__file__).parent
 
@@ -82,7 +83,7 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=40.0, help="time that the viewer gets")
     parser.add_argument("--tab", action="append", default=[], metavar="NAME:TITLE", help="tab that is in front")
     asked = parser.parse_args()
-    shown = layout("foxglove", sight_of(read([asked.mcap]).log))
+    shown = layout("foxglove", sight_of(read([asked.mcap]).log), together_in(asked.mcap))
     for name, title in (item.split(":") for item in asked.tab):
         tabs = shown["configById"][f"Tab!{name}"]
         tabs["activeTabIdx"] = [tab["title"] for tab in tabs["tabs"]].index(title)

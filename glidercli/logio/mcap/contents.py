@@ -14,38 +14,55 @@ from glidercli.log import Log
 from glidercli.logio.mcap.file import Topic
 from glidercli.logio.mcap.messages import Messages, message, timestamp
 from glidercli.logio.mcap.scene import Scene
+from glidercli.logio.mcap.side import ALONE, Side
 from glidercli.logio.mcap.topics import ChannelTopics, event_topics
 
-__all__ = ["Contents", "statement"]
+__all__ = ["Contents", "Line", "log_topic", "statement"]
 
 PIECE = 65536
 """Samples of a channel that are made into messages at once: at most 60 MB."""
 
 
+Line = tuple[int, str, str]
+"""Of the topic /log: when, UTC ns, what, and by whom."""
+
+
 class Contents:
     """The topics of a log that comes in pieces.
 
-    log : the first piece, or the whole; what has samples there is what can come.
+    log : the first piece, or the whole; what has samples there is what can come. side : which of the flights in the
+    file it is.
     """
 
-    def __init__(self, log: Log) -> None:
+    def __init__(self, log: Log, side: Side = ALONE) -> None:
+        self._side = side
         self._start_ns = log.start_ns if any(map(len, log.channels.values())) else None
-        self._topics, self._scene = ChannelTopics(log), Scene(log)
+        self._topics, self.scene = ChannelTopics(log, side.package), Scene(side.drawn(log), side)
 
     def samples(self, log: Log) -> Iterator[list[Topic]]:
         """The messages of a piece, some topics at a time; transforms first."""
         for piece in log.pieces(PIECE):
             with np.errstate(over="ignore", invalid="ignore"):  # absurd samples may overflow in degrees
-                yield [*self._scene.topics(piece), *self._topics.tables(piece)]
+                yield self._placed([*self.scene.topics(self._side.drawn(piece)), *self._topics.tables(piece)])
 
     def whole(self, log: Log) -> list[Topic]:
         """What can be told when the last piece is there. log : that piece, with all events and the final metadata."""
+        lines, drawn = self.parts(log)
+        return [log_topic(lines), *drawn]
+
+    def parts(self, log: Log) -> tuple[list[Line], list[Topic]]:
+        """The lines of the topic /log, and the other topics of ``whole``."""
         log = dataclasses.replace(log, events=tuple(sorted(log.events, key=lambda event: event.time_ns)))
         first = [event.time_ns for event in log.events[:1]]
         start_ns = min([*first, *([] if self._start_ns is None else [self._start_ns])], default=0)
         with np.errstate(over="ignore", invalid="ignore"):
-            drawn: list[Topic] = self._scene.lines(log, start_ns)
-        return [_log_lines(log, self._scene.remarks(), start_ns), *drawn, *event_topics(log.events)]
+            drawn: list[Topic] = self.scene.lines(self._side.drawn(log), start_ns)
+        events = event_topics(log.events, self._side.package)
+        return _lines(log, self.scene.remarks(), start_ns), self._placed([*drawn, *events])
+
+    def _placed(self, topics: Sequence[Topic]) -> list[Topic]:
+        """The topics under the names that they have in the file."""
+        return [dataclasses.replace(topic, name=self._side.place + topic.name) for topic in topics]
 
 
 def statement(log: Log) -> str:
@@ -56,10 +73,8 @@ def statement(log: Log) -> str:
     return f"{log.origin.upper()} FROM A RECONSTRUCTION: {text}" if text else log.origin.upper()
 
 
-def _log_lines(log: Log, remarks: Sequence[str], start_ns: int) -> Messages:
-    """The topic /log: first what the log is, then remarks, then the events."""
-    from foxglove_schemas_protobuf.Log_pb2 import Log as Line
-
+def _lines(log: Log, remarks: Sequence[str], start_ns: int) -> list[Line]:
+    """First what the log is, then remarks, then the events."""
     lines = [(start_ns, statement(log), "glider")]
     lines += [(start_ns, text, "scene") for text in remarks]
     if "track_note" in log.metadata:
@@ -67,7 +82,14 @@ def _log_lines(log: Log, remarks: Sequence[str], start_ns: int) -> Messages:
     for event in log.events:
         depth = "" if event.depth is None else f" at {event.depth:.1f} m"
         lines.append((event.time_ns, event.name + depth, "event"))
+    return lines
+
+
+def log_topic(lines: Sequence[Line]) -> Messages:
+    """The topic /log."""
+    from foxglove_schemas_protobuf.Log_pb2 import Log as Said
+
     messages = [
-        message(Line, timestamp=timestamp(at), level=Line.INFO, message=text, name=name) for at, text, name in lines
+        message(Said, timestamp=timestamp(at), level=Said.INFO, message=text, name=name) for at, text, name in lines
     ]
     return Messages("/log", np.array([at for at, _, _ in lines], np.int64), messages)

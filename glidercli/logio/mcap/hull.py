@@ -27,6 +27,7 @@ from glidercli.logio.mcap.primitives import (
     single,
     text,
 )  # fmt: skip
+from glidercli.logio.mcap.side import ALONE, Side
 
 __all__ = ["movable_mass", "rudder", "vehicle"]
 
@@ -41,12 +42,14 @@ HINGE = -0.48
 """Where the rudder turns, in lengths of the hull from its middle."""
 
 
-def vehicle(size: Size, kind: str, time_ns: int) -> Messages:
+def vehicle(size: Size, kind: str, time_ns: int, side: Side = ALONE) -> Messages:
     """/viz/vehicle: what of the vehicle never changes. kind : what the log is, which is written beside the hull."""
+    ink = side.colour or WHITE
     length, diameter, to_scale = size
     radius = 0.5 * diameter
     shoulder, tail = 0.5 * length - radius, -0.25 * length
-    skin: dict[str, Any] = {"color": colour(YELLOW), "bottom_scale": 1.0}
+    paint = colour(YELLOW if side.colour is None else (*side.colour[:3], YELLOW[3]))
+    skin: dict[str, Any] = {"color": paint, "bottom_scale": 1.0}
     barrel = {
         "pose": pose(0.5 * (shoulder + tail), 0.0, 0.0, FORWARD), "size": point(diameter, diameter, shoulder - tail),
         "top_scale": 1.0, **skin,
@@ -55,20 +58,22 @@ def vehicle(size: Size, kind: str, time_ns: int) -> Messages:
         "pose": pose(0.5 * (tail - 0.5 * length), 0.0, 0.0, AFT),
         "size": point(diameter, diameter, 0.5 * length + tail), "top_scale": 0.3, **skin,
     }  # fmt: skip
-    nose = {"pose": pose(shoulder), "size": point(diameter, diameter, diameter), "color": colour(YELLOW)}
+    nose = {"pose": pose(shoulder), "size": point(diameter, diameter, diameter), "color": paint}
     notes = {
         "log": kind,
         "hull": f"{length:g} m x {diameter:g} m, {'to scale' if to_scale else 'not to scale: its size is unknown'}",
         "wings, fin, rudder": "a sketch",
     }
     content = scene(
-        time_ns, HULL, "vehicle", notes, cylinders=[barrel, cone], spheres=[nose], triangles=[_fins(length, diameter)],
-        lines=[line(_edges(length, diameter), DARK, 1.5, 2)], texts=[text(kind, WHITE, z=-0.8 * length)],
+        time_ns, side.frame(HULL), "vehicle", notes, cylinders=[barrel, cone], spheres=[nose],
+        triangles=[_fins(length, diameter, side.colour or DARK)],
+        lines=[line(_edges(length, diameter), side.colour or DARK, 1.5, 2)],
+        texts=[text(side.name or kind, ink, z=-0.8 * length)],
     )  # fmt: skip
     return single("/viz/vehicle", time_ns, content)
 
 
-def movable_mass(times: Times, position: Array, rotation: Array, size: Size) -> Table:
+def movable_mass(times: Times, position: Array, rotation: Array, size: Size, side: Side = ALONE) -> Table:
     """/viz/movable_mass: a cylinder at (r_rx, -Rr sin gamma, Rr cos gamma), and its arm from the axis.
 
     position : along the body x axis, as drawn, m. rotation : gamma, rad. Rr is exaggerated: see ``drawn_eccentricity``.
@@ -86,11 +91,11 @@ def movable_mass(times: Times, position: Array, rotation: Array, size: Size) -> 
     rod = {**line(np.empty((0, 3)), RED, 3.0), "points": ends}
     axis = line(np.array([[-0.4 * length, 0.0, 0.0], [0.45 * length, 0.0, 0.0]]), (0.5, 0.5, 0.5, 0.8), 1.0)
     notes = {"distance from the axis": "exaggerated"}
-    template = scene(MARKED_TIME, HULL, "movable_mass", notes, cylinders=[mass], lines=[rod, axis])
+    template = scene(MARKED_TIME, side.frame(HULL), "movable_mass", notes, cylinders=[mass], lines=[rod, axis])
     return Table("/viz/movable_mass", times, template, [position, y, z, *q_xyzw, position, position, y, z])
 
 
-def rudder(times: Times, angle: Array, size: Size) -> Table:
+def rudder(times: Times, angle: Array, size: Size, side: Side = ALONE) -> Table:
     """/viz/rudder: its blade, turned about the body z axis. angle : rad, turning to starboard positive."""
     length, diameter, _ = size
     zero, half = np.zeros(len(times)), -0.5 * angle  # the trailing edge goes to starboard
@@ -99,7 +104,7 @@ def rudder(times: Times, angle: Array, size: Size) -> Table:
         "pose": marked_pose(), "points": points(corners * [length, 1.0, diameter]), "color": colour(RED),
         "indices": [0, 1, 2, 0, 2, 3],
     }  # fmt: skip
-    template = scene(MARKED_TIME, HULL, "rudder", {"shape": "a sketch"}, triangles=[blade])
+    template = scene(MARKED_TIME, side.frame(HULL), "rudder", {"shape": "a sketch"}, triangles=[blade])
     hinge = np.full(len(times), HINGE * length)
     return Table("/viz/rudder", times, template, [hinge, zero, zero, zero, zero, np.sin(half), np.cos(half)])
 
@@ -112,10 +117,10 @@ def _outlines(length: float, diameter: float) -> Array:
     return np.array([wing, wing * [1.0, -1.0, 1.0], fin]) * [length, 1.0, 1.0]
 
 
-def _fins(length: float, diameter: float) -> dict[str, Any]:
+def _fins(length: float, diameter: float, paint: Colour) -> dict[str, Any]:
     corners = _outlines(length, diameter).reshape(-1, 3)
     indices = [i for first in (0, 4, 8) for i in (first, first + 1, first + 2, first, first + 2, first + 3)]
-    return {"pose": pose(), "points": points(corners), "color": colour(DARK), "indices": indices}
+    return {"pose": pose(), "points": points(corners), "color": colour(paint), "indices": indices}
 
 
 def _edges(length: float, diameter: float) -> Array:

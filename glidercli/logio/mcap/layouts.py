@@ -10,7 +10,7 @@ MPL-2.0; facts only). The two differ in the key of a panel's title alone.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Set
+from collections.abc import Collection, Iterator, Mapping, Sequence, Set
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,7 +19,9 @@ from glidercli.channels import CHANNELS
 from glidercli.log import Log
 from glidercli.logio.mcap.contents import Contents
 from glidercli.logio.mcap.primitives import MAP, PLACE
+from glidercli.logio.mcap.reader import Together
 from glidercli.logio.mcap.topics import field_names
+from glidercli.residuals import on_circle
 
 __all__ = ["LAYOUTS", "Sight", "fields_of", "layout", "sight_of"]
 
@@ -35,7 +37,10 @@ FAR = ("vehicle", "movable_mass", "rudder", "track", "surface", "bottom", "fixes
 """The topics /viz/NAME that are drawn about the hull, and of the whole flight; a viewer draws none unless told to."""
 ON_MAP = {"/map/track", "/glider/fix"}
 """Topics that the map's panel draws."""
+MOST = 4
+"""Plots above one another."""
 COLOURS = ("#4e98e2", "#f5774d", "#5fc27e", "#b98cff", "#f0d05a")
+MORE_COLOURS = ("#5ae1cd", "#f06262", "#ff9edb", "#aab2be")
 
 Tree = str | dict[str, Any]
 
@@ -70,11 +75,17 @@ def fields_of(log: Log) -> dict[str, set[str]]:
     }  # fmt: skip
 
 
-def layout(name: str, sight: Sight | None = None, fields: Mapping[str, Set[str]] | None = None) -> dict[str, Any]:
+def layout(
+    name: str,
+    sight: Sight | None = None,
+    fields: Mapping[str, Set[str]] | None = None,
+    together: Together | None = None,
+) -> dict[str, Any]:
     """The layout of one of LAYOUTS.
 
     sight : of the panel that shows the whole flight. fields : topics that there are, with their fields; panels, lines
-    and tabs without any are left out. None for all.
+    and tabs without any are left out. None for all. together : what a file of several flights holds; all of them are
+    then drawn and plotted, and their differences from the first.
     """
     panels: dict[str, dict[str, Any]] = {
         "3D!hull": _view(PLACE, "follow-pose", Sight(distance=4.0), NEAR),
@@ -124,7 +135,8 @@ def layout(name: str, sight: Sight | None = None, fields: Mapping[str, Set[str]]
         panels = {panel: kept for panel, settings in panels.items() if (kept := _kept(settings, fields)) is not None}
         if not fields.keys() & ON_MAP:
             panels.pop("map!track")
-    trees = {
+    differences = {} if together is None else _add_others(panels, together, TITLE_KEYS[name])
+    trees: dict[str, dict[str, Tree | None]] = {
         "Tab!where": {"track": _column(panels, "3D!track"), "map": _column(panels, "map!track")},
         "Tab!plots": {
             "attitude": _column(panels, "Plot!attitude", "Plot!heading", "Plot!rates"),
@@ -132,6 +144,7 @@ def layout(name: str, sight: Sight | None = None, fields: Mapping[str, Set[str]]
             "water": _column(panels, "Plot!temperature", "Plot!salinity", "Plot!density", "Plot!conductivity"),
             "current": _column(panels, "Plot!current"),
             "motion": _column(panels, "Plot!speed", "Plot!flow"),
+            **differences,
         },
         "Tab!words": {
             "log": _column(panels, "RosOut!log"), "events": _column(panels, "RawMessages!event"),
@@ -167,6 +180,57 @@ def _is_there(path: str, fields: Mapping[str, Set[str]]) -> bool:
     return field in fields.get(topic, ())
 
 
+def _add_others(panels: dict[str, dict[str, Any]], together: Together, title_key: str) -> dict[str, Tree | None]:
+    """Draw and plot the flights beside the first, too; the tabs of their differences from it.
+
+    panels : those of the first flight, which are added to. title_key : of a panel's title.
+    """
+    for panel, settings in panels.items():
+        if panel.startswith("3D!"):
+            topics = [f"/beside/{number}{topic}" for number in together.names for topic in settings["topics"]]
+            settings["topics"] |= {topic: {"visible": True} for topic in topics if topic in together.topics}
+        elif "paths" in settings:
+            settings["paths"] += list(_of_others(settings["paths"], together))
+    tabs: dict[str, Tree | None] = {}
+    for group in dict.fromkeys(spec.group for spec in CHANNELS.values()):
+        plots = []
+        for spec in (spec for spec in CHANNELS.values() if spec.group == group):
+            paths = [
+                {
+                    **_path(
+                        f"/difference/{number}/{spec.name}.{spec.column}", f"{called} less the first", _shade(number)
+                    ),
+                    "showLine": not on_circle(spec.name),
+                }
+                for number, called in together.names.items()
+                if f"/difference/{number}/{spec.name}" in together.topics
+            ]
+            if paths:
+                title = f"difference: {spec.name.replace('_', ' ')}, {spec.column_unit}"
+                panels[f"Plot!difference_{spec.name}"] = {**_drawn(paths), title_key: title}
+                plots.append(f"Plot!difference_{spec.name}")
+        for first in range(0, len(plots), MOST):
+            title = f"{group} differences" + (f" {first // MOST + 1}" if first else "")
+            tabs[title] = _column(panels, *plots[first : first + MOST])
+    return tabs
+
+
+def _of_others(paths: Sequence[dict[str, Any]], together: Together) -> Iterator[dict[str, Any]]:
+    """The same message paths of the flights beside the first, where they have the topic; lines in other colours."""
+    for number, called in together.names.items():
+        for place, path in enumerate(paths):
+            value = f"/beside/{number}{path['value']}"
+            if value.split(".")[0] in together.topics:
+                drawn = {"color": _shade(len(paths) * number + place)} if "color" in path else {}
+                yield {**path, "value": value, "label": f"{path['label']}, {called}", **drawn}
+
+
+def _shade(number: int) -> str:
+    """A colour for the line of a flight beside the first."""
+    shades = (*COLOURS, *MORE_COLOURS)
+    return shades[number % len(shades)]
+
+
 def _view(frame: str, follow: str, sight: Sight, shown: tuple[str, ...]) -> dict[str, Any]:
     """A 3-D panel with its third axis up, seen from the south-west and 24 deg above."""
     eye = {
@@ -188,6 +252,11 @@ def _plot(*names: str) -> dict[str, Any]:
         spec = CHANNELS[name]
         label = name.replace("_", " ")
         paths.append(_path(f"/glider/{spec.group}.{field_names(spec)[-1]}", label, shade))
+    return _drawn(paths)
+
+
+def _drawn(paths: list[dict[str, Any]]) -> dict[str, Any]:
+    """A plot of message paths against time."""
     return {
         "paths": paths, "showXAxisLabels": True, "showYAxisLabels": True, "showLegend": True,
         "legendDisplay": "floating", "showPlotValuesInLegend": False, "isSynced": True, "xAxisVal": "timestamp",

@@ -197,12 +197,12 @@ def all_times(times: Sequence[Times]) -> Times:
     return union
 
 
-def own_class(name: str, fields: Sequence[tuple[str, int, int]]) -> type[Any]:
-    """A message class glider.NAME of a timestamp and fields (name, number, type)."""
+def own_class(name: str, fields: Sequence[tuple[str, int, int]], package: str = "glider") -> type[Any]:
+    """A message class PACKAGE.NAME of a timestamp and fields (name, number, type)."""
     from google.protobuf import timestamp_pb2
     from google.protobuf.descriptor_pb2 import FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet
 
-    file = FileDescriptorProto(name=f"glider/{name}.proto", package="glider", syntax="proto3")
+    file = FileDescriptorProto(name=f"{package}/{name}.proto", package=package, syntax="proto3")
     file.dependency.append("google/protobuf/timestamp.proto")
     described = file.message_type.add(name=name)
     single = FieldDescriptorProto.LABEL_OPTIONAL
@@ -213,4 +213,4 @@ def own_class(name: str, fields: Sequence[tuple[str, int, int]]) -> type[Any]:
     files = FileDescriptorSet()
     timestamp_pb2.DESCRIPTOR.CopyToProto(files.file.add())
     files.file.append(file)
-    return message_class(files.SerializeToString(), f"glider.{name}")
+    return message_class(files.SerializeToString(), f"{package}.{name}")

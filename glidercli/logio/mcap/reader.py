@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import os
 import struct
@@ -18,6 +19,7 @@ from glidercli.channels import CHANNELS
 from glidercli.errors import InputError
 from glidercli.files import readable_file
 from glidercli.log import Event, Log, Origin
+from glidercli.logio.mcap.beside import BESIDE
 from glidercli.logio.mcap.file import MAGIC
 from glidercli.logio.mcap.messages import Array, decoded, message_class
 from glidercli.logio.mcap.topics import EVENT_TOPIC, field_names, template_of
@@ -31,7 +33,7 @@ from glidercli.logio.report import FileReport
 if TYPE_CHECKING:
     from mcap.summary import Summary
 
-__all__ = ["is_mcap", "read_mcap", "read_mcap_log"]
+__all__ = ["Together", "is_mcap", "read_mcap", "read_mcap_log", "together_in"]
 
 _MESSAGE, _FOOTER, _DATA_END = 0x05, 0x02, 0x0F  # opcodes
 _HEAD = 31  # bytes of a message record before its payload; its log time stands at byte 15
@@ -42,6 +44,13 @@ Notes = Mapping[str, Mapping[str, str]]
 
 class _Damaged(Exception):
     """The bytes are not what they should be."""
+
+
+class Together(NamedTuple):
+    """What a file of several flights holds beside the first: names by number, from 1 on, and the topics of the file."""
+
+    names: Mapping[int, str]
+    topics: frozenset[str]
 
 
 class _Found(NamedTuple):
@@ -62,6 +71,8 @@ def is_mcap(path: Path) -> bool:
 
 def read_mcap(path: Path) -> Part:
     """The Log that `write_mcap` wrote, equal to the last bit, and its account: a record is a time of its messages.
+
+    Of a file of several flights it is the first; a warning names the others.
 
     Records and values that cannot be used are dropped, left out and counted by the rules of ``own/rules.py``.
     Raises InputError for a file that is no MCAP, was not written by glider, or is cut short or damaged.
@@ -87,7 +98,8 @@ def read_mcap(path: Path) -> Part:
             summary = reader.get_summary()
             if summary is None:
                 raise _Damaged("no summary")
-            return _part(path, notes, _topics(stream, summary))
+            part = _part(path, notes, _topics(stream, summary))
+            return part if not (others := _others(notes)) else _with_warning(part, others)
     except (
         _Damaged, McapError, zstandard.ZstdError, DecodeError, struct.error, ValueError, KeyError, IndexError, TypeError
     ) as fault:  # fmt: skip
@@ -99,6 +111,34 @@ def read_mcap(path: Path) -> Part:
 def read_mcap_log(path: Path) -> Log:
     """The Log of ``read_mcap``."""
     return read_mcap(path).log
+
+
+def together_in(path: Path) -> Together | None:
+    """What a file holds beside the first flight; None where it is no MCAP file of several flights."""
+    if not path.is_file() or not is_mcap(path):
+        return None
+    from mcap.reader import SeekingReader
+
+    with path.open("rb") as stream:
+        reader = SeekingReader(stream)
+        names = _others({record.name: record.metadata for record in reader.iter_metadata()})
+        summary = reader.get_summary()
+    if summary is None or not names:
+        return None
+    return Together(names, frozenset(channel.topic for channel in summary.channels.values()))
+
+
+def _others(notes: Notes) -> dict[int, str]:
+    """What each flight beside the first is called, by its number."""
+    found = {int(name[len(BESIDE) :]): told["short_name"] for name, told in notes.items() if name.startswith(BESIDE)}
+    return dict(sorted(found.items()))
+
+
+def _with_warning(part: Part, others: Mapping[int, str]) -> Part:
+    """The part of a file of several flights, with the others named."""
+    told = "; ".join(f"/beside/{number} {name}" for number, name in others.items())
+    warnings = (f"flights beside this one are not read: {told}", *part.report.warnings)
+    return dataclasses.replace(part, report=dataclasses.replace(part.report, warnings=warnings))
 
 
 def _check_written_by_glider(path: Path, notes: Notes) -> None:

@@ -20,6 +20,7 @@ from glidercli.logio.mcap.file import Topic
 from glidercli.logio.mcap.latest import FOREVER, Latest, at_these, moving
 from glidercli.logio.mcap.messages import Array
 from glidercli.logio.mcap.shapes import Samples
+from glidercli.logio.mcap.side import ALONE, Side
 from glidercli.logio.stretches import Stretches
 from glidercli.logio.thinned import Thinned
 from glidercli.places import track_of_geodetic
@@ -36,10 +37,12 @@ LEVEL = (0.0, 0.0, 0.0, 1.0)
 class Scene:
     """What viewers draw of a log that comes in pieces.
 
-    log : the first piece; what has samples there is what can come.
+    log : the first piece; what has samples there is what can come. side : which of the flights in the file it is. Of
+    one that stands beside another the surroundings are not drawn: those of the first are there.
     """
 
-    def __init__(self, log: Log) -> None:
+    def __init__(self, log: Log, side: Side = ALONE) -> None:
+        self._side = side
         placed = any(len(log.together(*names)[0]) for names in (TRACK, ("depth",)))
         self._place, self._attitude = Latest(placed), Latest(len(log.together(*ANGLES)[0]) > 0)
         self._slide, self._turn, self._phase = (
@@ -67,18 +70,18 @@ class Scene:
         times = moving([(self._place, place), (self._attitude, attitude)])
         if times.size:
             motion = times, [*self._place.at(times, (0.0, 0.0, 0.0)), *self._attitude.at(times, LEVEL)]
-            topics = [shapes.transforms(motion), shapes.places(motion), *_poses(place, attitude), *topics]
+            moved = shapes.transforms(motion, self._side), shapes.places(motion, self._side)
+            topics = [*moved, *_poses(place, attitude), *topics]
             if self._start_ns is None:
                 self._start_ns = int(times[0])
-                topics = [
-                    shapes.static(self._log_ns), *topics, hull.vehicle(self._size, self._kind, self._start_ns)
-                ]  # fmt: skip
+                vehicle = hull.vehicle(self._size, self._kind, self._start_ns, self._side)
+                topics = [shapes.static(self._log_ns), *topics, vehicle]
         start_ns = FOREVER if self._start_ns is None else self._start_ns
         return [*topics, *self._inside(piece, start_ns), *self._current(piece, start_ns)]
 
     def lines(self, log: Log, start_ns: int) -> list[Topic]:
         """The topics that show the whole way, when the last piece is there. log : that piece, with its metadata."""
-        topics: list[Topic] = [*shapes.map_track(log, self._way.rows(), self._fixes.rows(), start_ns)]
+        topics: list[Topic] = [*shapes.map_track(log, self._way.rows(), self._fixes.rows(), start_ns, self._side)]
         if self._phase.known and self._phase.last_ns > self._changed_ns:  # viewers draw a phase up to its next message
             end = np.array([self._phase.last_ns])
             topics.append(shapes.phases(end, [_word(code) for code in self._phase.at(end)[0].tolist()]))
@@ -87,7 +90,9 @@ class Scene:
         size = float(np.linalg.norm(self._bounds[1] - self._bounds[0])) if self._place.known else 0.0
         if self._track.count:
             way = self._track.rows(), self._track.count, log["north"].origin
-            topics.append(still.track(*way, self._stretches.told(), self._start_ns))
+            topics.append(still.track(*way, self._stretches.told(), self._start_ns, self._side))
+        if self._side.place:
+            return topics
         if self._place.known:
             topics += still.surface(self._bounds, self._level, self._start_ns)
             if (depth := bottom(log)) is not None:
@@ -114,6 +119,16 @@ class Scene:
         if gaps := self._stretches.told():
             said.append(f"the track is broken at {gaps}")
         return [*said, *self._mass_notes, *self._told]
+
+    @property
+    def bounds(self) -> Array:
+        """Least and greatest north, east, down of the flight so far, (2, 3), m; infinite without a place."""
+        return self._bounds
+
+    def make_room(self, bounds: Array) -> None:
+        """Let the sea surface reach over another flight, too. bounds : of that, (2, 3), m."""
+        if self._place.known:
+            self._bounds = np.stack([np.minimum(self._bounds[0], bounds[0]), np.maximum(self._bounds[1], bounds[1])])
 
     def _keep(self, piece: Log, fixes: Samples) -> None:
         """Keep of a piece what the whole way is drawn from."""
@@ -152,12 +167,12 @@ class Scene:
         times = moving([(self._slide, slide), (self._turn, turn)], start_ns)
         if times.size:
             (position,), (rotation,) = self._slide.at(times, (self._zero,)), self._turn.at(times, (0.0,))
-            topics.append(hull.movable_mass(times, position - self._zero, rotation, self._size))
+            topics.append(hull.movable_mass(times, position - self._zero, rotation, self._size, self._side))
         if self._steered:
             times, (angle,) = piece.together("rudder_angle")
             seen = times >= start_ns
             if seen.any():
-                topics.append(hull.rudder(times[seen], angle[seen], self._size))
+                topics.append(hull.rudder(times[seen], angle[seen], self._size, self._side))
         return topics
 
     def _current(self, piece: Log, start_ns: int) -> list[Topic]:
@@ -165,7 +180,7 @@ class Scene:
         times, current = piece.together("current_east", "current_north")
         seen = times >= start_ns
         times = times[seen]
-        if not times.size or not self._place.known:
+        if not times.size or not self._place.known or self._side.place:
             return []
         east, north = (column[seen] for column in current)
         up, place = at_these(piece, "current_up", times, 0.0), self._place.at(times)

@@ -15,6 +15,7 @@ from glidercli.log import Log
 from glidercli.logio.drawable import origin
 from glidercli.logio.mcap.messages import MARKED_TIME, Array, Messages, Table, Times, message, slot, timestamp
 from glidercli.logio.mcap.primitives import HULL, MAP, NED, PLACE, colour, marked_pose, point, scene, single
+from glidercli.logio.mcap.side import ALONE, Side
 from glidercli.places import geodetic_of_track
 
 __all__ = ["Samples", "current", "fixes", "map_track", "phases", "places", "poses", "static", "transforms"]
@@ -38,23 +39,23 @@ def static(time_ns: int) -> Messages:
     return single("/tf_static", time_ns, message(FrameTransforms, transforms=[transform]))
 
 
-def transforms(motion: Samples) -> Table:
+def transforms(motion: Samples, side: Side = ALONE) -> Table:
     """/tf: the hull in `map_ned`; columns north, east, down, x, y, z, w."""
     from foxglove_schemas_protobuf.FrameTransform_pb2 import FrameTransform
 
     pose = marked_pose()
-    template = message(FrameTransform, timestamp=MARKED_TIME, parent_frame_id=NED, child_frame_id=HULL)
+    template = message(FrameTransform, timestamp=MARKED_TIME, parent_frame_id=NED, child_frame_id=side.frame(HULL))
     template.MergeFrom(message(FrameTransform, translation=pose["position"], rotation=pose["orientation"]))
     return Table("/tf", motion[0], template, motion[1])
 
 
-def places(motion: Samples) -> Table:
+def places(motion: Samples, side: Side = ALONE) -> Table:
     """/tf_place: where the hull is in `map`, not how it lies; columns north, east, down and others."""
     from foxglove_schemas_protobuf.FrameTransform_pb2 import FrameTransform
 
     (north, east, down), zero, one = motion[1][:3], np.zeros(len(motion[0])), np.ones(len(motion[0]))
     pose = marked_pose()
-    template = message(FrameTransform, timestamp=MARKED_TIME, parent_frame_id=MAP, child_frame_id=PLACE)
+    template = message(FrameTransform, timestamp=MARKED_TIME, parent_frame_id=MAP, child_frame_id=side.frame(PLACE))
     template.MergeFrom(message(FrameTransform, translation=pose["position"], rotation=pose["orientation"]))
     return Table("/tf_place", motion[0], template, [east, north, -down, zero, zero, zero, one])
 
@@ -77,7 +78,7 @@ def fixes(found: Samples, altitude: Array) -> Table:
     return Table("/glider/fix", found[0], template, [*found[1], altitude])
 
 
-def map_track(log: Log, way: Array, fixed: Array, time_ns: int) -> list[Messages]:
+def map_track(log: Log, way: Array, fixed: Array, time_ns: int, side: Side = ALONE) -> list[Messages]:
     """/map/track: the whole track as GeoJSON, from north and east about the known origin, else from the fixes.
 
     way : (n, 3) north and east, m, and the number of the stretch; the line is broken between stretches. fixed : (n, 2)
@@ -106,7 +107,8 @@ def map_track(log: Log, way: Array, fixed: Array, time_ns: int) -> list[Messages
         geometry: dict[str, Any] = {"type": "MultiLineString", "coordinates": lines}
     else:
         geometry = {"type": "Point", "coordinates": points[0].tolist()}
-    style = {"color": "#3399ff", "weight": 3}
+    shade = "#3399ff" if side.colour is None else "#" + "".join(f"{round(255 * part):02x}" for part in side.colour[:3])
+    style = {"color": shade, "weight": 3}
     told = {"name": f"track ({log.kind if kind == log.origin else kind.upper()})", "style": style}
     feature = {"type": "Feature", "properties": told, "geometry": geometry}
     text = json.dumps({"type": "FeatureCollection", "features": [feature]}, allow_nan=False)

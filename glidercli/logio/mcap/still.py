@@ -25,6 +25,7 @@ from glidercli.logio.mcap.primitives import (
     single,
     text,
 )  # fmt: skip
+from glidercli.logio.mcap.side import ALONE, Side
 from glidercli.logio.round_steps import nice
 from glidercli.logio.stretches import alone
 
@@ -54,14 +55,16 @@ PHASE_COLOURS: dict[str, Colour] = {
 }  # fmt: skip
 
 
-def track(rows: Array, count: int, origin: str, gaps: str, time_ns: int) -> Messages:
+def track(rows: Array, count: int, origin: str, gaps: str, time_ns: int, side: Side = ALONE) -> Messages:
     """/viz/track: the whole way, a line for each stretch, in the colours of its phases, else of depth; ends are named.
 
     rows : (n, 6) of the ``count`` samples: north, east, down, m, the phase's code, NaN where there is none, UTC ns, and
     the number of the stretch; one of a single row is a ball. gaps : those between stretches in words, "" without one.
     """
     places, codes, stretches = rows[:, :3], rows[:, 3], rows[:, 5]
-    if np.isin(codes, np.arange(len(PHASES))).all():
+    if side.colour is not None:
+        palette, chosen, meaning = [colour(side.colour)], np.zeros(len(rows), np.int64), f"one for {side.name}"
+    elif np.isin(codes, np.arange(len(PHASES))).all():
         palette = [colour(PHASE_COLOURS[name]) for name in PHASES]
         chosen, meaning = (
             codes.astype(np.int64),
@@ -77,7 +80,11 @@ def track(rows: Array, count: int, origin: str, gaps: str, time_ns: int) -> Mess
     ways = [{**line(places[a:b], WHITE), "colors": painted[a:b]} for a, b in itertools.pairwise(edges) if b > a + 1]
     size = point(*[max(0.003 * float(np.linalg.norm(np.ptp(places, axis=0))), 0.5)] * 3)
     balls = [{"pose": pose(*places[i].tolist()), "size": size, "color": painted[i]} for i in alone(stretches).tolist()]
-    ends: list[Any] = [text("start", GREEN, *places[0].tolist()), text("end", ORANGE, *places[-1].tolist())]
+    inks, whose = (side.colour or GREEN, side.colour or ORANGE), f" {side.name}" if side.name else ""
+    ends: list[Any] = [
+        text(word + whose, ink, *place.tolist())
+        for word, ink, place in zip(("start", "end"), inks, places[[0, -1]], strict=True)
+    ]
     notes = {"points": f"{len(places)} of {count}", "origin": origin, "colours": meaning, "broken at": gaps or "no gap"}
     content = scene(time_ns, NED, "track", notes, lines=ways, spheres=balls, texts=ends[: len(places)])
     return single("/viz/track", time_ns, content)

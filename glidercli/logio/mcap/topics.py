@@ -47,10 +47,10 @@ def template_of(kind: type[Any]) -> tuple[Any, list[str]]:
 class ChannelTopics:
     """The topics /glider/GROUP of a log that comes in pieces: one for each family of channels with a sample.
 
-    log : the first piece; the channels that have samples there are the ones that can come.
+    log : the first piece; the channels that have samples there are the ones that can come. package : of the messages.
     """
 
-    def __init__(self, log: Log) -> None:
+    def __init__(self, log: Log, package: str = "glider") -> None:
         from google.protobuf.descriptor_pb2 import FieldDescriptorProto
 
         double = int(FieldDescriptorProto.TYPE_DOUBLE)
@@ -65,7 +65,7 @@ class ChannelTopics:
                 for offset, name in enumerate(field_names(spec)):
                     fields.append((name, 2 + 2 * i + offset, double))
                     notes[name] = f"{spec.meaning}; {log[spec.name].origin}"
-            template, _ = template_of(own_class(group.capitalize(), fields))
+            template, _ = template_of(own_class(group.capitalize(), fields, package))
             self._families.append((f"/glider/{group}", [spec for _, spec in kept], template, notes))
 
     def tables(self, piece: Log) -> list[Table]:
@@ -82,12 +82,12 @@ class ChannelTopics:
         return found
 
 
-def event_topics(events: Sequence[Event]) -> list[Messages]:
+def event_topics(events: Sequence[Event], package: str = "glider") -> list[Messages]:
     """The topic /glider/event, or none without events; depth is NaN where it is unknown."""
     from google.protobuf.descriptor_pb2 import FieldDescriptorProto as F
 
     fields = [("name", 2, F.TYPE_STRING), ("time_ns", 3, F.TYPE_INT64), ("depth_m", 4, F.TYPE_DOUBLE)]
-    kind = own_class("Event", [(name, number, int(type_)) for name, number, type_ in fields])
+    kind = own_class("Event", [(name, number, int(type_)) for name, number, type_ in fields], package)
     messages = [
         kind(
             timestamp=timestamp(event.time_ns),

@@ -7,15 +7,17 @@ keeps them when the end is lost.
 from __future__ import annotations
 
 import mimetypes
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import IO
 
 from glidercli.errors import OutputError
 from glidercli.log import Log
+from glidercli.logio.mcap.beside import Beside
 from glidercli.logio.mcap.contents import Contents
 from glidercli.logio.mcap.file import McapFile
 from glidercli.provenance import version
+from glidercli.residuals import Residuals
 from glidercli.utc import iso
 
 __all__ = ["AT_THE_END", "FORMAT", "FORMATS", "McapLog", "write_mcap"]
@@ -42,34 +44,58 @@ def write_mcap(log: Log, path: Path, attach: Sequence[Path] = ()) -> None:
 
 
 class McapLog:
-    """A log as MCAP, piece by piece; the same log in the same pieces gives the same bytes."""
+    """A log as MCAP, piece by piece; the same log in the same pieces gives the same bytes.
 
-    def __init__(self, stream: IO[bytes], attach: Sequence[Path] = ()) -> None:
+    attach : as for ``write_mcap``. beside, names, errors : other logs that go with it, what each is called, and their
+    errors against it by channel, see beside.py; the log is then added as a whole, and is what the file is read back as.
+    """
+
+    def __init__(
+        self,
+        stream: IO[bytes],
+        attach: Sequence[Path] = (),
+        beside: Sequence[Log] = (),
+        names: Sequence[str] = (),
+        errors: Sequence[Mapping[str, Residuals]] = (),
+    ) -> None:
+        self._beside = [other.sliced(None, None) for other in beside]  # without channels that are empty
+        self._called, self._errors = tuple(names), tuple(errors)
         self._path, self._attach = Path(stream.name), attach
         self._file = McapFile(stream)
         self._told: dict[str, dict[str, str]] = {}
         self._provenance = False
         self._start_ns: int | None = None
-        self._contents: Contents | None = None
+        self._contents: Contents | Beside | None = None
 
     def add(self, log: Log) -> None:
         """Append a piece, or the whole; all have the same channels, and the first has samples of each that comes."""
         self._check(log)
         if self._contents is None:
             self._start_ns = log.start_ns if any(map(len, log.channels.values())) else None
-            self._tell(log)
-            self._contents = Contents(log)
+            self._contents = self._begin(log)
         for topics in self._contents.samples(log):
             self._file.add(topics)
 
     def close(self, log: Log) -> None:
         """Finish the file. log : its last piece, with all events and the final metadata."""
         self._check(log)
-        self._tell(log)
         if self._contents is None:
-            self._contents = Contents(log)
+            self._contents = self._begin(log)
+        self._tell(log)
         self._file.add(self._contents.whole(log))
         self._file.finish()
+
+    def _begin(self, log: Log) -> Contents | Beside:
+        if not self._beside:
+            self._tell(log)
+            return Contents(log)
+        for other in self._beside:
+            self._check(other)
+        together = Beside(log, self._beside, self._called, self._errors)
+        self._tell(log)
+        for name, entries in together.told().items():
+            self._file.metadata(name, entries)
+        return together
 
     def _check(self, log: Log) -> None:
         times = [int(c.time_ns[0]) for c in log.channels.values() if len(c)] + [event.time_ns for event in log.events]

@@ -5,22 +5,23 @@ The first stands where it would stand alone; what belongs to the others stands u
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from glidercli.log import Log
+from glidercli.logio.apart import TOO_FAR, apart, in_km
 from glidercli.logio.drawable import bottom, origin
+from glidercli.logio.labels import labels
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun import still
 from glidercli.logio.rerun.about import about_several
-from glidercli.logio.rerun.apart import TOO_FAR, apart, in_km
 from glidercli.logio.rerun.axes import Extent, joined
 from glidercli.logio.rerun.chart import Line, chart
 from glidercli.logio.rerun.clocks import aligned
 from glidercli.logio.rerun.contents import PIECE, header, texts
-from glidercli.logio.rerun.differences import Difference, differences, reference_first
+from glidercli.logio.rerun.differences import Difference, differences, reference_first, taken
 from glidercli.logio.rerun.hull import hull_notes
 from glidercli.logio.rerun.panels import ASPECT, unit_of
 from glidercli.logio.rerun.plots import Plots, lines
@@ -28,6 +29,7 @@ from glidercli.logio.rerun.scene import Scene
 from glidercli.logio.rerun.sea import Sea
 from glidercli.logio.rerun.settling import columns, row
 from glidercli.logio.rerun.side_by_side import Pair, Side, side_by_side
+from glidercli.residuals import Residuals
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
@@ -42,10 +44,18 @@ class Beside:
     """The chunks of a log, which comes whole, and of others beside it.
 
     log, others : without empty channels. names : what to call each; default: its kind, numbered where that is not
-    enough. Clocks that do not overlap are shifted, see clocks.py.
+    enough. Clocks that do not overlap are shifted, see clocks.py. errors : of each other log against this one, by
+    channel, where a comparison found them; default: differences by a rule of our own, see differences.py.
     """
 
-    def __init__(self, log: Log, others: Sequence[Log], names: Sequence[str] = ()) -> None:
+    def __init__(
+        self,
+        log: Log,
+        others: Sequence[Log],
+        names: Sequence[str] = (),
+        errors: Sequence[Mapping[str, Residuals]] = (),
+    ) -> None:
+        self._errors = errors
         self._logs = [log, *(aligned(log, other) for other in others)]
         self._zero_ns = min(one.start_ns for one in self._logs)
         self._sides: list[Side] = []
@@ -55,7 +65,7 @@ class Beside:
         for number, one in enumerate(self._logs):
             colour = look.OVERLAID[number % len(look.OVERLAID)]
             place = f"/beside/{number}" if number else ""
-            label, short = _labels(number, self._logs, names)
+            label, short = labels(number, self._logs, names)
             self._plots.append(Plots(one, self._zero_ns, place, colour, short))
             far, about = self._apart.get(number), origin(log) if number else None
             about, moved = (about, (0.0, 0.0)) if far is None else (far.about, far.moved)
@@ -147,8 +157,12 @@ class Beside:
     def _pair(self, number: int, notes: list[str], chunks: list[Chunk]) -> Pair:
         """How far a log is from the first, added to what is drawn and told."""
         sides = self._sides[0], self._sides[number]
-        reference, other = sides if reference_first(sides[0].log, sides[1].log) else sides[::-1]
-        found = differences(reference.log, other.log)
+        first = bool(self._errors) or reference_first(sides[0].log, sides[1].log)
+        reference, other = sides if first else sides[::-1]
+        if self._errors:
+            found = taken(self._errors[number - 1], reference.log, other.log)
+        else:
+            found = differences(reference.log, other.log)
         pair = Pair(other, reference, f"/difference/{number}", sides[1].colour, found)
         for one in found:
             chunks += self._drawn(one, pair)
@@ -157,7 +171,7 @@ class Beside:
             notes.append(
                 f"Differences: {pair.title}, at the samples of {reference.short}; {other.short} is interpolated "
                 "between its own samples, not across gaps of them. Angles are differences on the circle. "
-                f"That of depth is negative where {other.short} is deeper, as depth is plotted."
+                f"That of depth is positive where {other.short} is deeper, though depth is plotted negative down."
             )
             rms = ", ".join(f"{one.name.replace('_', ' ')} {one.rms:.3g} {unit_of(one.name)}" for one in found)
             notes.append(f"Root of the mean square of {pair.title}: {rms}.")
@@ -174,14 +188,3 @@ class Beside:
         drawn = lines(1.5, **style) if pair.drawn_as_lines(one.name) else rr.SeriesPoints(**points)
         values = rr.Scalars.columns(scalars=one.values)
         return [row(entity, drawn), columns(entity, self._zero_ns, one.time_ns, values)]
-
-
-def _labels(number: int, logs: Sequence[Log], names: Sequence[str]) -> tuple[str, str]:
-    """What a log is called: its name and kind, and what of that is enough to tell it from the others."""
-    kinds = [log.kind for log in logs]
-    kind, alone = kinds[number], kinds.count(kinds[number]) == 1
-    if not names:
-        label = kind if alone else f"{kind} {kinds[: number + 1].count(kind)}"
-        return label, label
-    name = " ".join(names[number].split())
-    return f"{name} {kind}", kind if alone else f"{name} {logs[number].origin.upper()}"

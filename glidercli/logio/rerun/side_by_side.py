@@ -192,7 +192,7 @@ def _differences(pairs: Sequence[Pair]) -> dict[str, list[Any]]:
 def _difference(name: str, found: Sequence[tuple[Pair, Difference]], legend: bool, count: int) -> Any:
     """How far logs are apart in a channel; the title tells which less which by colours. count : of the tab's panels."""
     words = f"{name.replace('_', ' ')}, {panels.unit_of(name)}, {_which([pair for pair, _ in found])}"
-    words += "; deeper negative" if name == "depth" else ""
+    words += "; deeper positive" if name == "depth" else ""
     words += "" if all(one.same_zero for _, one in found) else "; other zeros"
     each = [one.rms for _, one in found]
     titles = [f"{words}; rms {', '.join(f'{rms:.3g}' for rms in each)}", f"{words}; rms to {max(each):.3g}", words]

@@ -8,7 +8,7 @@ import errno
 import hashlib
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,7 @@ from glidercli.log import Log
 from glidercli.logio.rerun.beside import Beside
 from glidercli.logio.rerun.contents import Contents
 from glidercli.logio.rerun.settling import Settled, identified, settle
+from glidercli.residuals import Residuals
 
 if TYPE_CHECKING:
     from rerun.chunk import Chunk
@@ -27,18 +28,25 @@ PATIENCE = 30.0
 """s; a piece takes tenths of one. Rerun waits without end for a writer that a full disk ended in the wrong moment."""
 
 
-def write_rerun(log: Log, path: Path, beside: Sequence[Log] = (), names: Sequence[str] = ()) -> None:
+def write_rerun(
+    log: Log,
+    path: Path,
+    beside: Sequence[Log] = (),
+    names: Sequence[str] = (),
+    errors: Sequence[Mapping[str, Residuals]] = (),
+) -> None:
     """Write the log to `path` as a Rerun recording with its blueprint; the same log gives the same bytes.
 
     beside : logs to show in the same panels, each in its colour, with their differences from the first; on its clock
     where they overlap in UTC, else all start together. names : what to call the log and each of those; default: its
-    kind, such as MEASURED or SIMULATED.
+    kind, such as MEASURED or SIMULATED. errors : of each of those against the log, by channel, as a comparison found
+    them; they are then the differences.
 
     Timelines are utc and elapsed (from the log's first sample). Each channel keeps its own times and stands under
     /GROUP/NAME in table units (degrees, dbar, cm3), depth negative down; the scene stands under /world in NED, m.
     Raises OutputError for a log without a single sample.
     """
-    file = RerunLog(path, beside, names)
+    file = RerunLog(path, beside, names, errors)
     file.add(log)
     file.close(log)
 
@@ -46,14 +54,22 @@ def write_rerun(log: Log, path: Path, beside: Sequence[Log] = (), names: Sequenc
 class RerunLog:
     """A log as a Rerun recording, piece by piece; the same log in the same pieces gives the same bytes.
 
-    beside, names : as for ``write_rerun``; the log is then added as a whole.
+    beside, names, errors : as for ``write_rerun``; the log is then added as a whole.
     """
 
-    def __init__(self, path: Path, beside: Sequence[Log] = (), names: Sequence[str] = ()) -> None:
-        self._path = path
+    def __init__(
+        self,
+        path: Path,
+        beside: Sequence[Log] = (),
+        names: Sequence[str] = (),
+        errors: Sequence[Mapping[str, Residuals]] = (),
+    ) -> None:
+        self._path, self._errors = path, tuple(errors)
         self._beside, self._called = [other.sliced(None, None) for other in beside], tuple(names)
         if self._called and len(self._called) != len(self._beside) + 1:
             raise InputError("names", f"{len(self._called)} for {len(self._beside) + 1} logs; one each is needed")
+        if self._errors and len(self._errors) != len(self._beside):
+            raise InputError("errors", f"{len(self._errors)} for {len(self._beside)} logs beside; one each is needed")
         if not all(other.channels for other in self._beside):
             raise InputError("beside", "a log holds no sample")
         self._hash = hashlib.sha256()
@@ -95,8 +111,11 @@ class RerunLog:
             self._digest(other)
             self._tell(other)
         self._hash.update(json.dumps(self._called).encode())
+        for name, left in ((name, left) for errors in self._errors for name, left in errors.items()):
+            times, values = left.with_gaps()
+            self._hash.update(f"error {name} ".encode() + times.tobytes() + values.tobytes())
         self._key = self._hash.hexdigest()
-        contents = Beside(log, self._beside, self._called) if self._beside else Contents(log)
+        contents = Beside(log, self._beside, self._called, self._errors) if self._beside else Contents(log)
         self._recording = rr.RecordingStream("glider", recording_id=self._key[:32], send_properties=False)
         self._recording.set_log_time_enabled(False)
         self._recording.save(self._path)
