@@ -143,7 +143,8 @@ def _track(track: TrackErrors, events: tuple[EventPair, ...]) -> dict[str, Any]:
 
 def _distances(far: Distances) -> dict[str, Any]:
     told = far._asdict()
-    return {**told, "max_time_utc": utc(told.pop("max_time_ns")), "unit": "m"}
+    worst = told.pop("max_time_ns")
+    return {**told, "max_time_utc": utc(worst), "unit": "m"}
 
 
 def _apart(pair: EventPair) -> dict[str, Any]:

@@ -8,6 +8,7 @@ left; an event without a partner stands alone.
 
 from __future__ import annotations
 
+import bisect
 import dataclasses
 import itertools
 
@@ -88,16 +89,25 @@ def _surfacings(depth: Channel, intervals: tuple[Interval, ...]) -> list[Event]:
 
 def paired(measured: tuple[Event, ...], simulated: tuple[Event, ...]) -> tuple[EventPair, ...]:
     """Events of both logs side by side, in time order."""
-    left = list(simulated)
+    left: dict[str, list[Event]] = {}
+    for event in sorted(simulated, key=_when):
+        left.setdefault(event.name, []).append(event)
     pairs = []
     for event in measured:
-        partners = [other for other in left if other.name == event.name]
-        partner = min(partners, key=lambda other: abs(other.time_ns - event.time_ns), default=None)
-        if partner is not None:
-            left.remove(partner)
-        pairs.append(EventPair(event.name, event, partner))
-    pairs += [EventPair(event.name, None, event) for event in left]
+        others = left.get(event.name, [])
+        after = bisect.bisect_left(others, event.time_ns, key=_when)
+        near = min(
+            (place for place in (after - 1, after) if 0 <= place < len(others)),
+            key=lambda place: abs(others[place].time_ns - event.time_ns),
+            default=None,
+        )
+        pairs.append(EventPair(event.name, event, None if near is None else others.pop(near)))
+    pairs += [EventPair(event.name, None, event) for others in left.values() for event in others]
     return tuple(sorted(pairs, key=lambda pair: (pair.measured or pair.simulated or Event("", 0)).time_ns))
+
+
+def _when(event: Event) -> int:
+    return event.time_ns
 
 
 def located(pairs: tuple[EventPair, ...], tracks: Tracks | None, max_gap: float) -> tuple[EventPair, ...]:

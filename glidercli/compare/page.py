@@ -19,7 +19,7 @@ from glidercli.compare.page_drawings import over_time, tracks
 from glidercli.compare.page_html import embedded, escaped, flat, table
 from glidercli.compare.page_plots import plots
 from glidercli.compare.page_provenance import origins
-from glidercli.compare.page_tables import errors, events, facts, figures
+from glidercli.compare.page_tables import errors, events, facts, outcomes
 from glidercli.compare.page_words import overview, run_words
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def page(comparison: Comparison, provenance: Mapping[str, Any]) -> str:
         ("plots", "Plots", over_time(comparison, drawn)),
         ("track", "Tracks", tracks(drawn, parts)),
         ("errors", "Errors", errors(comparison, parts)),
-        ("figures", "Figures of the flight", figures(parts)),
+        ("figures", "Figures of the flights", outcomes(parts)),
         ("events", "Events", events(parts)),
         ("reading", "How to read this", _reading(comparison)),
         ("provenance", "Provenance", origins(comparison, provenance)),

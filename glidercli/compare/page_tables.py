@@ -14,7 +14,7 @@ from glidercli.compare.page_html import flat, number, table
 if TYPE_CHECKING:
     from glidercli.compare.comparison import Comparison
 
-__all__ = ["errors", "events", "facts", "figures"]
+__all__ = ["errors", "events", "facts", "outcomes"]
 
 _VERDICTS = {"agrees": "agrees", "agrees, as given": "open", "disagrees": "disagrees", "not simulated": "open"}
 _ERRORS = ("unit", "n", "rmse", "mae", "bias", "std", "max", "correlation", "nrmse")
@@ -84,12 +84,12 @@ def errors(comparison: Comparison, parts: Sequence[Mapping[str, Any]]) -> str:
     return text
 
 
-def figures(parts: Sequence[Mapping[str, Any]]) -> str:
+def outcomes(parts: Sequence[Mapping[str, Any]]) -> str:
     """Figures of the flight, measured and simulated, where the document has them."""
     return "".join(
-        table(f"{part['name']}: measured and simulated", [flat(row) for row in part["figures"]])
+        table(f"{part['name']}: measured and simulated", [flat(row) for row in part["outcomes"]])
         for part in parts
-        if part.get("figures")
+        if part.get("outcomes")
     )
 
 

@@ -9,6 +9,7 @@ import pytest
 from analytic_flights import START_NS, log
 from scipy.spatial.transform import Rotation
 
+from glidercli.compare import compare
 from glidercli.compare.tracks import tracks
 
 T = np.arange(0.0, 4001.0, 10.0)
@@ -123,3 +124,14 @@ def test_one_sample_and_a_standing_vehicle_divide_by_nothing() -> None:
     assert (found.absolute.rmse, found.aligned.rmse, found.relative) == (1.0, 0.0, ())
     still = errors(flight(0.0, 0.0, 0.0, **HERE), flight(0.1 * T, 0.0, 0.0, **HERE))
     assert [one.of_way for one in still.relative] == [None, None]
+
+
+def test_the_document_tells_the_worst_time_in_words_alone() -> None:
+    place = {f"origin_{axis}_deg": repr(value) for axis, value in HERE.items()}
+    logs = [
+        log(T, origin, place, depth=5.0 + 0.0 * T, north=way * T, east=0.0 * T, down=5.0 + 0.0 * T)
+        for origin, way in (("measured", 0.1), ("simulated", 0.2))
+    ]
+    told = compare(*logs).document()["track"]
+    assert set(told["absolute"]) == {"n", "rmse", "mean", "median", "std", "max", "max_time_utc", "unit"}
+    assert told["absolute"]["max_time_utc"] == "2011-07-20T05:34:40.000Z"  # 4,000 s after the first sample
