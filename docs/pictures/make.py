@@ -45,8 +45,9 @@ PICTURES = {
     "trial-rerun": Picture(("simulate south-china-sea-2011 -o OUT.rrd",), 2700.0, ("Current",)),
     "side-by-side": Picture(
         (
-            f"simulate --controls {LOGS}/seaglider-sg561 --initial {LOGS}/seaglider-sg561 -o again.nc",
-            f"replay {LOGS}/seaglider-sg561 --with again.nc -o OUT.rrd",
+            f"simulate --vehicle seaglider --controls {LOGS}/seaglider-sg561 --initial {LOGS}/seaglider-sg561 "
+            f"--ctd {LOGS}/seaglider-sg561 -o twin.nc",
+            f"replay {LOGS}/seaglider-sg561 --with twin.nc -o OUT.rrd",
         ),
         1200.0,
     ),

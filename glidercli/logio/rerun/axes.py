@@ -51,8 +51,8 @@ def joined(extents: Iterable[Extent]) -> Extent:
 def axis(names: Sequence[str], extents: Mapping[str, Extent], panels: int) -> Extent | None:
     """The ends of the axis of a plot of channels, or of their differences; None where their extents are not known.
 
-    panels : how many such plots stand above one another. Where marks have no room for labels those of the next power of
-    ten count.
+    panels : how many such plots stand above one another, one less for a taller one. Where marks have no room for labels
+    those of the next power of ten count.
     """
     known = [extents[name] for name in names if name in extents]
     if not known:

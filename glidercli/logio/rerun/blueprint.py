@@ -84,7 +84,9 @@ def _plots(tab: str, log: Log, shown: Shown) -> list[Any]:
         if present == ["depth"] and shown.phases:
             words = f"depth, m: {_words_of(shown.phases)}"
         contents = [f"/{CHANNELS[name].group}/{name}" for name in present]
-        views.append(panels.over_time(words, contents, axis(present, shown.extents, len(held))))
+        views.append(
+            panels.over_time(words, contents, axis(present, shown.extents, len(held) - (present == ["depth"]) or 1))
+        )
     return views
 
 

@@ -101,7 +101,10 @@ def side_by_side(
     if hulls:
         left.append(rrb.Vertical(*hulls) if len(hulls) > 1 else hulls[0])
     shown = [name for name in FIRST if any(name in side.log for side in sides)][:MOST]
-    flight = [_overlaid(name, sides, axis([name], extents, len(shown)), MIDDLE, name == shown[0]) for name in shown]
+    flight = [
+        _overlaid(name, sides, axis([name], extents, len(shown) - (name == "depth") or 1), MIDDLE, name == shown[0])
+        for name in shown
+    ]
     tabs = {"Differences": _in_tabs(_differences(pairs)), "Values": _in_tabs(_values(sides, shown, extents))}
     if zoom is not None:
         tabs["Map"] = [rrb.MapView(origin="/map", zoom=zoom, name="tracks and fixes; map from the network")]
