@@ -53,7 +53,7 @@ def write(comparison: Comparison, *paths: Path, provenance: dict[str, Any], forc
             elif kind == ".json":
                 part.write_text(_json({**document(comparison), "provenance": provenance}), encoding="utf-8")
             elif kind == ".html":
-                from glidercli.compare.page import save as save_page
+                from glidercli.compare.page.whole import save as save_page
 
                 save_page(comparison, part, provenance)
             else:

@@ -16,11 +16,11 @@ from analytic_flights import START_NS, log, vee
 from conftest import ROOT, Run, one_line_error
 
 from glidercli.compare import compare, read_facts, write
-from glidercli.compare import page as page_module
-from glidercli.compare.page import page
-from glidercli.compare.page_html import MOST_ROWS, embedded, escaped, number, table
-from glidercli.compare.page_plots import ALL_POINTS, MOST_POINTS, plots, thinned
-from glidercli.compare.page_track import track
+from glidercli.compare.page import whole as page_module
+from glidercli.compare.page.html import MOST_ROWS, embedded, escaped, number, table
+from glidercli.compare.page.plots import ALL_POINTS, MOST_POINTS, plots, thinned
+from glidercli.compare.page.track import track
+from glidercli.compare.page.whole import page
 from glidercli.log import Event, Log
 from tests.logio.viewer_logs import HOSTILE, full, hostile
 
@@ -369,5 +369,5 @@ def test_importing_compare_reads_no_page_and_no_library() -> None:
 
 
 def test_the_library_is_the_published_one() -> None:
-    library = (ROOT / "glidercli" / "compare" / "page_files" / "plotly-gl3d.min.js").read_bytes()
+    library = (ROOT / "glidercli" / "compare" / "page" / "files" / "plotly-gl3d.min.js").read_bytes()
     assert hashlib.sha256(library).hexdigest() in (ROOT / "docs" / "dependencies.md").read_text()

@@ -14,7 +14,7 @@ from chromium import CHROMIUM, Tab, browser
 from matplotlib.image import imread
 
 from glidercli.compare import compare, read_facts
-from glidercli.compare.page import page
+from glidercli.compare.page.whole import page
 from glidercli.log import Event, Log
 from glidercli.logio import read
 from glidercli.simulation import simulate

@@ -9,8 +9,8 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from glidercli.compare.facts import Facts
-from glidercli.compare.page_html import escaped, flat, number, table
-from glidercli.compare.page_plots import Plots
+from glidercli.compare.page.html import escaped, flat, number, table
+from glidercli.compare.page.plots import Plots
 from glidercli.log import Log
 
 if TYPE_CHECKING:

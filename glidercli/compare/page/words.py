@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from glidercli.compare.facts import Facts
-from glidercli.compare.page_html import escaped, number
+from glidercli.compare.page.html import escaped, number
 from glidercli.utc import to_second
 
 if TYPE_CHECKING:

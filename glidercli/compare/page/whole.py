@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any
 
 from glidercli.compare.document import document
 from glidercli.compare.facts import Facts
-from glidercli.compare.page_drawings import over_time, tracks
-from glidercli.compare.page_html import embedded, escaped, flat, table
-from glidercli.compare.page_plots import plots
-from glidercli.compare.page_provenance import origins
-from glidercli.compare.page_tables import errors, events, facts, outcomes
-from glidercli.compare.page_words import overview, run_words
+from glidercli.compare.page.drawings import over_time, tracks
+from glidercli.compare.page.html import embedded, escaped, flat, table
+from glidercli.compare.page.plots import plots
+from glidercli.compare.page.provenance import origins
+from glidercli.compare.page.tables import errors, events, facts, outcomes
+from glidercli.compare.page.words import overview, run_words
 
 if TYPE_CHECKING:
     from glidercli.compare.comparison import Comparison, Side
@@ -95,7 +95,7 @@ def page(comparison: Comparison, provenance: Mapping[str, Any]) -> str:
 
 
 def _file(name: str) -> str:
-    return (files("glidercli.compare") / "page_files" / name).read_text(encoding="utf-8")
+    return (files("glidercli.compare.page") / "files" / name).read_text(encoding="utf-8")
 
 
 def _hash(script: str) -> str:

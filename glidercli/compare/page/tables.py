@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from glidercli.compare.facts import Facts
-from glidercli.compare.page_html import flat, number, table
+from glidercli.compare.page.html import flat, number, table
 
 if TYPE_CHECKING:
     from glidercli.compare.comparison import Comparison

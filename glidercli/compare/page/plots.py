@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from glidercli.compare.bands import bands
 from glidercli.compare.drawn import TURNED, breaks, clock, drawn_values, panels, span, unit_of
-from glidercli.compare.page_html import number as written
+from glidercli.compare.page.html import number as written
 from glidercli.dives import phases
 from glidercli.log import Channel, Log
 from glidercli.residuals import table_values
@@ -112,7 +112,7 @@ def plots(comparison: Comparison, shorts: Sequence[str]) -> Plots:
 
     shorts : a short name of each log, the measured one first where there is one.
     """
-    from glidercli.compare.page_track import track
+    from glidercli.compare.page.track import track
 
     measured = comparison.against if isinstance(comparison.against, Log) else None
     logs = [*([] if measured is None else [measured]), *(run.log for run in comparison.runs)]

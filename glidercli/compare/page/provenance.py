@@ -8,7 +8,7 @@ import shlex
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from glidercli.compare.page_html import escaped, table
+from glidercli.compare.page.html import escaped, table
 from glidercli.log import Log
 
 if TYPE_CHECKING:
