@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 
 from glidercli.log import Log
-from glidercli.logio.drawable import origin
 from glidercli.places import geodetic_of_track
 
 __all__ = ["TOO_FAR", "Apart", "apart", "in_km"]
@@ -43,7 +42,7 @@ def apart(log: Log, other: Log) -> Apart | None:
     """How the other is drawn beside the log; None where one scene holds both, or the place of either is unknown."""
     from pymap3d.vincenty import vdist
 
-    first, second, about = _track(log), _track(other), origin(other)
+    first, second, about = _track(log), _track(other), other.place
     if first is None or second is None or about is None:
         return None
     distance = float(vdist(*first.place, *second.place)[0])
@@ -62,7 +61,7 @@ def in_km(distance: float) -> str:
 
 def _track(log: Log) -> _Track | None:
     """Where a track begins, and how large it is; None where it is unknown."""
-    about = origin(log)
+    about = log.place
     _, places = log.together("north", "east", "down" if "down" in log else "depth")
     if about is None or not len(places[0]):
         return None

@@ -1,24 +1,19 @@
-"""What can a viewer draw of a Log beside its samples? Hull and movable mass, the origin of places, the bottom."""
+"""What can a viewer draw of a Log beside its samples? Hull and movable mass, the bottom."""
 
 from __future__ import annotations
 
 from glidercli.log import Log
 
 __all__ = [
-    "bottom", "drawn_eccentricity", "hull_size", "mass_notes", "moves_mass", "number", "origin", "slide_zero",
+    "bottom", "drawn_eccentricity", "hull_size", "mass_notes", "moves_mass", "slide_zero",
 ]  # fmt: skip
 
 STAND_IN = (2.0, 0.22)  # m, length and diameter of a usual glider
 
 
-def number(log: Log, key: str) -> float | None:
-    """A number told by the log's metadata, or None where it is missing, not finite or no number."""
-    return log.number(key)
-
-
 def hull_size(log: Log) -> tuple[float, float, bool]:
     """Length and diameter of the hull, m, and whether they are the vehicle's own (metadata) or only a stand-in."""
-    length, diameter = number(log, "hull_length_m"), number(log, "hull_diameter_m")
+    length, diameter = log.number("hull_length_m"), log.number("hull_diameter_m")
     if length is None or diameter is None or not length > diameter > 0.0:
         return *STAND_IN, False
     return length, diameter, True
@@ -49,7 +44,7 @@ def mass_notes(log: Log) -> list[str]:
     """What a viewer of the movable mass must know; nothing where the log does not move one."""
     if not moves_mass(log):
         return []
-    true, drawn = number(log, "movable_eccentricity_m"), drawn_eccentricity(hull_size(log)[1])
+    true, drawn = log.number("movable_eccentricity_m"), drawn_eccentricity(hull_size(log)[1])
     told = f"exaggerated: {drawn:.3f} m for a true {true:g} m" if true is not None else "not to scale: it is unknown"
     notes = [f"the movable mass (red): its distance from the hull's axis is drawn {told}"]
     if "mass_position" in log and not _zero_known(log):
@@ -58,15 +53,10 @@ def mass_notes(log: Log) -> list[str]:
 
 
 def _zero_known(log: Log) -> bool:
-    return "mass_position_zero" not in log.metadata and number(log, "movable_nominal_position_m") is not None
-
-
-def origin(log: Log) -> tuple[float, float] | None:
-    """Latitude and longitude, deg, of what north and east are counted from; None where they are unknown."""
-    return log.place
+    return "mass_position_zero" not in log.metadata and log.number("movable_nominal_position_m") is not None
 
 
 def bottom(log: Log) -> float | None:
     """Depth of the bottom, m, where the log tells it."""
-    depth = number(log, "bottom_depth_m")
+    depth = log.number("bottom_depth_m")
     return depth if depth is not None and depth > 0.0 else None

@@ -12,7 +12,6 @@ import numpy as np
 
 from glidercli.log import Log
 from glidercli.logio.derived.closure import closures_in
-from glidercli.logio.drawable import number
 from glidercli.logio.mcap.messages import Array
 
 __all__ = ["averages"]
@@ -23,7 +22,7 @@ def averages(log: Log) -> tuple[Array, str]:
     found = [row for item in closures_in(log.metadata.get("closures", "")) if (row := _row(item)) is not None]
     if found:
         return np.array(found), "derived: what the reckoned track of each dive misses at the next fix"
-    north, east = (number(log, f"depth_averaged_current_{way}_m_s") for way in ("north", "east"))
+    north, east = (log.number(f"depth_averaged_current_{way}_m_s") for way in ("north", "east"))
     if north is None or east is None:
         return np.empty((0, 3)), ""
     return np.array([[np.nan, north, east]]), "as the vehicle's own software tells it"

@@ -16,7 +16,6 @@ from glidercli.channels import CHANNELS
 from glidercli.errors import InputError
 from glidercli.log import Log
 from glidercli.logio.apart import apart, in_km
-from glidercli.logio.drawable import origin
 from glidercli.logio.labels import labels
 from glidercli.logio.mcap.contents import Contents, Line, log_topic
 from glidercli.logio.mcap.file import Topic
@@ -54,7 +53,7 @@ class Beside:
         self._apart = [apart(log, other) for other in others]
         self._contents = [Contents(log, Side("", self._labels[0][1], _colour(0)))]
         for number, (other, far) in enumerate(zip(others, self._apart, strict=True), 1):
-            about = origin(log) if far is None else None
+            about = log.place if far is None else None
             side = Side(f"/beside/{number}", self._labels[number][1], _colour(number), about)
             self._contents.append(Contents(other, side))
 

@@ -13,7 +13,7 @@ import numpy as np
 from glidercli.channels import PHASES
 from glidercli.frames import quaternion_from_euler_arrays
 from glidercli.log import Log
-from glidercli.logio.drawable import bottom, hull_size, mass_notes, origin, slide_zero
+from glidercli.logio.drawable import bottom, hull_size, mass_notes, slide_zero
 from glidercli.logio.mcap import hull, shapes, still
 from glidercli.logio.mcap.averages import averages
 from glidercli.logio.mcap.file import Topic
@@ -203,7 +203,7 @@ class Scene:
 
     def _marks(self, log: Log) -> Array:
         """Measured fixes as north and east of the origin, (n, 2), m; none where they cannot be placed."""
-        counted_from, fixes = origin(log), self._fixes.rows()
+        counted_from, fixes = log.place, self._fixes.rows()
         if not len(fixes) or log["latitude"].origin != "measured":
             return np.empty((0, 2))
         if counted_from is None:

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from glidercli.log import Log
-from glidercli.logio.drawable import origin
 from glidercli.logio.mcap.messages import MARKED_TIME, Array, Messages, Table, Times, message, slot, timestamp
 from glidercli.logio.mcap.primitives import HULL, MAP, NED, PLACE, colour, marked_pose, point, scene, single
 from glidercli.logio.mcap.side import ALONE, Side
@@ -86,7 +85,7 @@ def map_track(log: Log, way: Array, fixed: Array, time_ns: int, side: Side = ALO
     """
     from foxglove_schemas_protobuf.GeoJSON_pb2 import GeoJSON
 
-    about = origin(log)
+    about = log.place
     if about is not None and len(way):
         latitude, longitude = geodetic_of_track(way[:, 0], way[:, 1], *about)
         kind, stretches = log["north"].origin, way[:, 2]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 
 from glidercli.log import Channel, Log
-from glidercli.logio.drawable import origin
 from glidercli.logio.mcap.primitives import Colour
 from glidercli.places import geodetic_of_track, track_of_geodetic
 
@@ -39,7 +38,7 @@ class Side:
 
     def drawn(self, log: Log) -> Log:
         """The log, or a piece of it, with north and east as they are drawn; as it is where an origin is unknown."""
-        own = origin(log)
+        own = log.place
         if own is None or self.about is None or own == self.about:
             return log
         latitude, longitude = map(repr, self.about)

@@ -12,7 +12,7 @@ import numpy as np
 
 from glidercli.log import Log
 from glidercli.logio.apart import TOO_FAR, apart, in_km
-from glidercli.logio.drawable import bottom, origin
+from glidercli.logio.drawable import bottom
 from glidercli.logio.labels import labels
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun import still
@@ -67,7 +67,7 @@ class Beside:
             place = f"/beside/{number}" if number else ""
             label, short = labels(number, self._logs, names)
             self._plots.append(Plots(one, self._zero_ns, place, colour, short))
-            far, about = self._apart.get(number), origin(log) if number else None
+            far, about = self._apart.get(number), log.place if number else None
             about, moved = (about, (0.0, 0.0)) if far is None else (far.about, far.moved)
             self._scenes.append(Scene(one, self._zero_ns, f"/world{place}", colour, about, moved))
             scene = self._scenes[-1]
@@ -144,7 +144,7 @@ class Beside:
                 drawn, told = still.track(rows, f"/world{side.place}", scene.stretches.told(), side.colour)
                 chunks += drawn
                 notes += [f"{side.short}: {note}" for note in told]
-        if len(tracks) > 1 and any(origin(one) is None for one in self._logs):
+        if len(tracks) > 1 and any(one.place is None for one in self._logs):
             notes.append("Not every log tells where on the globe it was: each track is drawn about its own origin.")
         for number, far in self._apart.items():
             who, first = self._sides[number].short, self._sides[0].short

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from glidercli.channels import CHANNELS
 from glidercli.log import Log
-from glidercli.logio.drawable import origin
 from glidercli.residuals import Residuals, residuals, usual_gap
 
 __all__ = ["Difference", "differences", "reference_first", "taken"]
@@ -65,4 +64,4 @@ def _difference(left: Residuals, reference: Log, other: Log) -> Difference:
 
 def _apart(reference: Log, other: Log) -> bool:
     """Whether both tell the origin that north and east are counted from, and it is not the same."""
-    return None not in (origin(reference), origin(other)) and origin(reference) != origin(other)
+    return None not in (reference.place, other.place) and reference.place != other.place

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from glidercli.frames import quaternion_from_euler_arrays
 from glidercli.log import Log
-from glidercli.logio.drawable import origin, slide_zero
+from glidercli.logio.drawable import slide_zero
 from glidercli.logio.rerun import colours as look
 from glidercli.logio.rerun.chart import on_chart
 from glidercli.logio.rerun.hull import hull, rail
@@ -58,7 +58,7 @@ class Scene:
         moved: tuple[float, float] = (0.0, 0.0),
     ) -> None:
         self._log, self._zero_ns, self._world, self._colour = log, zero_ns, world, colour
-        own = origin(log)
+        own = log.place
         self._about = about if own is not None and about is not None else own
         self._own = None if about is None or about == own else own
         self._moved = np.array([*moved, 0.0])
@@ -146,7 +146,7 @@ class Scene:
         log : the last piece, with its metadata.
         """
         rows = self.positions.rows()
-        about = self._about or origin(log)
+        about = self._about or log.place
         if not len(rows) or self._log["latitude"].origin != "measured" or (about is None and self.track.count):
             return np.empty((0, 3)), np.empty((0, 2))
         about = about or (float(rows[0, 0]), float(rows[0, 1]))
