@@ -28,10 +28,11 @@ demo: $(VENV)/.installed
 	$(BIN)/glider trim --net-buoyancy 0.3 --mass-position 0.4216 --mass-rotation 45
 	$(BIN)/glider simulate south-china-sea-2011 --force -o $(DEMO)/trial.mcap -o $(DEMO)/trial.rrd -o $(DEMO)/trial.csv
 	$(BIN)/glider replay logs/seaexplorer-sea035 --force -o $(DEMO)/sea035.mcap -o $(DEMO)/sea035.rrd
-	$(BIN)/glider compare south-china-sea-2011 $(DEMO)/trial.mcap --force -o $(DEMO)/trial.png -o $(DEMO)/verdicts.csv
+	$(BIN)/glider compare south-china-sea-2011 $(DEMO)/trial.mcap --force -o $(DEMO)/trial.png -o $(DEMO)/verdicts.csv -o $(DEMO)/trial.html
 	@echo
 	@echo "Open these:"
 	@echo "  $(DEMO)/trial.png     the reconstructed trial against what the paper prints"
+	@echo "  $(DEMO)/trial.html    the same as a page, with every verdict"
 	@echo "  $(DEMO)/trial.rrd     the same flight in 3-D:    $(BIN)/rerun $(DEMO)/trial.rrd"
 	@echo "  $(DEMO)/sea035.rrd    a real SeaExplorer's dives: $(BIN)/rerun $(DEMO)/sea035.rrd"
 	@echo "  $(DEMO)/trial.mcap, $(DEMO)/sea035.mcap   in Foxglove or Lichtblick: open local file"
