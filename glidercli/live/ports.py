@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
+import os
 import socket
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
 
 from glidercli.errors import InputError
 
-__all__ = ["HOST", "listening", "taken"]
+__all__ = ["HOST", "alone", "listening", "taken"]
 
 HOST = "127.0.0.1"
 """Servers are for programs on this machine alone."""
@@ -32,6 +37,28 @@ def taken(port: int | None, usual: int) -> socket.socket:
                 why = "is in use" if in_use else f"cannot be used: {error.strerror}"
                 raise InputError("--port", f"port {port} {why}; another from 1024 to 65535 is needed") from None
     raise InputError("--port", f"no port of {HOST} is free")
+
+
+@contextlib.contextmanager
+def alone() -> Iterator[None]:
+    """While a program of another maker takes its ports: a second one that starts now waits.
+
+    What such a program is told to take is free until it listens, so that two that start at once would take the same.
+    Where there are no such locks, or none can be had, nothing waits.
+    """
+    try:
+        import fcntl
+
+        path = Path(tempfile.gettempdir()) / f"glider-ports-{os.getuid()}.lock"
+        lock = os.open(path, os.O_CREAT | os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600)
+    except (ImportError, OSError):
+        yield
+        return
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(lock)
 
 
 def listening(port: int) -> bool:

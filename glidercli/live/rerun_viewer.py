@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from glidercli.errors import InputError
-from glidercli.live.ports import HOST, listening, taken
+from glidercli.live.ports import HOST, alone, listening, taken
 from glidercli.log import Log
 
 if TYPE_CHECKING:
@@ -53,29 +53,34 @@ class RerunViewer:
         self._following, self._paced = following, paced
         self._contents: Contents | None = None
         self._stream: RerunStream | None = None
-        with taken(None, PORT) as held:
-            feed = held.getsockname()[1]
-            command = [str(binary()), "--bind", HOST, "--port", str(feed)]
-            if web:
-                with taken(port, WEB_PORT) as page:
-                    number = page.getsockname()[1]
-                    source = quote(f"rerun+http://{HOST}:{feed}/proxy", safe="")
-                    self.address = f"http://{HOST}:{number}/?{QUIET}&url={source}"
-                    command += ["--serve-web", "--web-viewer-port", str(number)]
-                    command += ["--server-memory-limit", "75%"]
-            else:
-                command += ["--hide-welcome-screen", "--expect-data-soon"]
-        self._said = tempfile.TemporaryFile()  # noqa: SIM115, it lives as long as the process
-        self._process = subprocess.Popen(
-            command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self._said, env=quiet_environment(),
-            start_new_session=True,  # Ctrl-C is for us; we end it
-            preexec_fn=_bound_to_us(),
-        )  # fmt: skip
-        try:
-            self._wait_for(feed)
-        except BaseException:
-            self.close(patient=False)
-            raise
+        with alone():
+            with taken(None, PORT) as held:
+                feed = held.getsockname()[1]
+                mine = [feed]
+                command = [str(binary()), "--bind", HOST, "--port", str(feed)]
+                if web:
+                    with taken(port, WEB_PORT) as page:
+                        number = page.getsockname()[1]
+                        mine.append(number)
+                        source = quote(f"rerun+http://{HOST}:{feed}/proxy", safe="")
+                        self.address = f"http://{HOST}:{number}/?{QUIET}&url={source}"
+                        command += ["--serve-web", "--web-viewer-port", str(number)]
+                        command += ["--server-memory-limit", "75%"]
+                else:
+                    command += ["--hide-welcome-screen", "--expect-data-soon"]
+            self._said = tempfile.TemporaryFile()  # noqa: SIM115, it lives as long as the process
+            self._process = subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self._said,
+                env=quiet_environment(),
+                start_new_session=True,  # Ctrl-C is for us; we end it
+                preexec_fn=_bound_to_us(),
+            )  # fmt: skip
+            try:
+                for number in mine:
+                    self._wait_for(number)
+            except BaseException:
+                self.close(patient=False)
+                raise
         self._url = f"rerun+http://{HOST}:{feed}/proxy"
 
     def begin(self, log: Log, past: Log | None) -> None:
