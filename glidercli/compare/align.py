@@ -36,6 +36,13 @@ MOST_STEPS = 2**18
 """Longest record, in common steps, that xcorr works on; the step grows with longer ones."""
 
 
+EQUAL, NEXT_TO_NOTHING = 1.01, 0.002
+"""Shifts at which the depths lie as close, so that the one with more samples counts: a hundredth further, and 0.2 % of
+the depths' scatter, for curves that meet to rounding."""
+AS_CLOSE, SMALL = 1.5, 0.02
+"""A shift that is told beside the best: half again as far, and 2 % of the scatter."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Alignment:
     """How a simulated log's clock was laid on the measured one's.
@@ -57,20 +64,20 @@ class Alignment:
         """What the certainty is, in words; "" where nothing was estimated."""
         if self.method == "none":
             return ""
-        if self.certainty is None and self.method == "xcorr":
-            return "its certainty is not known: the depths lie closest at the last shift that was tried"
+        other = "" if self.other is None else f"; the depths are about as close at a shift of {self.other:.0f} s"
         if self.certainty is None:
-            return "its certainty is not known: one of the logs has a single sample"
+            why = "the last one tried" if self.method == "xcorr" else "of a log with a single sample"
+            return f"its certainty is not known, for it is {why}{other}"
         told = {
             "start": "half the times between the first two depth samples of both",
             "gps": "half the times between the first two positions of both",
             "dive": "half the times between the depth samples where the dives begin, of both",
             "xcorr": "one standard error, residuals correlated in time counted as fewer",
         }[self.method]
-        found = f"certain to {self.certainty:.2g} s, {told}"
-        return (
-            found if self.other is None else f"{found}; the depths are about as close at a shift of {self.other:.0f} s"
-        )
+        found = f"certain to {self.certainty:.2g} s, {told}{other}"
+        if self.method == "xcorr" and abs(self.shift - self.offset) <= self.certainty:
+            return f"{found}; that is no less than the shift, so that nothing asks for one"
+        return found
 
 
 def align(
@@ -177,19 +184,47 @@ def _closest(measured: Channel, simulated: Channel, offset: float, max_gap: floa
     square = _correlation(m * m, have_s) - 2.0 * _correlation(m, s) + _correlation(have_m, s * s)
     enough = overlap >= 0.5 * min(have_m.sum(), have_s.sum())
     distance = np.where(enough, square / np.maximum(overlap, 1.0), np.inf)
-    best = int(np.argmin(distance))
-    between, certainty = 0.0, None
-    if 0 < best < len(distance) - 1 and np.isfinite(distance[best - 1 : best + 2]).all():
-        before, here, after = distance[best - 1 : best + 2]
-        curvature = float(before - 2.0 * here + after)
-        if curvature > 0.0:
-            between = 0.5 * float(before - after) / curvature
-            left = max(float(here) - 0.125 * float(before - after) ** 2 / curvature, 0.0)
-            certainty = step * math.sqrt(2.0 * left / (_independent(m, s, have_m, have_s, best) * curvature))
     zero = equal_starts - (len(s) - 1) * step + offset
-    other = _as_close(distance, best, 0.02 * float(m.std()))
-    rival = None if other is None else zero + other * step
-    return Alignment("xcorr", zero + (best + between) * step, offset, certainty, rival)
+    lows = _lows(distance)
+    scatter = float(m.std())
+    rms = np.sqrt(lows.distance)
+    fits = np.flatnonzero(rms <= EQUAL * rms.min() + NEXT_TO_NOTHING * scatter)
+    best = int(fits[np.argmax(overlap[lows.place[fits]])])
+    curvature, certainty = float(lows.curvature[best]), None
+    if curvature > 0.0:
+        count = _independent(m, s, have_m, have_s, int(lows.place[best]))
+        certainty = step * math.sqrt(2.0 * float(lows.distance[best]) / (count * curvature))
+    others = np.delete(np.arange(len(rms)), best)
+    near = others[rms[others] <= AS_CLOSE * rms[best] + SMALL * scatter]
+    rival = None if not len(near) else zero + float(lows.lag[near[np.argmin(rms[near])]]) * step
+    return Alignment("xcorr", zero + float(lows.lag[best]) * step, offset, certainty, rival)
+
+
+class _Lows(NamedTuple):
+    """Where the curves lie closest, (k,): the step, the shift between steps, the distance there, m2, its curvature."""
+
+    place: NDArray[np.int64]
+    lag: Array
+    distance: Array
+    curvature: Array
+
+
+def _lows(distance: Array) -> _Lows:
+    """The least distances, each at the vertex of the parabola through it and its neighbours.
+
+    Unlike the least on the steps alone, these can be compared: how far a step misses the vertex is chance. An end of
+    the shifts that were tried is one where it is lower than its neighbour; it has no vertex, and curvature 0.
+    """
+    beside = np.concatenate([[np.inf], distance, [np.inf]])
+    place = np.flatnonzero((distance <= beside[:-2]) & (distance <= beside[2:]) & np.isfinite(distance))
+    before, here, after = beside[place], distance[place], beside[place + 2]
+    inside = np.isfinite(before) & np.isfinite(after)
+    before, after = np.where(inside, before, here), np.where(inside, after, here)
+    curvature = before - 2.0 * here + after
+    slope, bent = before - after, np.where(curvature > 0.0, curvature, 1.0)
+    between = np.where(curvature > 0.0, 0.5 * slope / bent, 0.0)
+    vertex = np.where(curvature > 0.0, here - 0.125 * slope**2 / bent, here)
+    return _Lows(place.astype(np.int64), place.astype(np.float64) + between, np.maximum(vertex, 0.0), np.maximum(curvature, 0.0))
 
 
 def _independent(m: Array, s: Array, have_m: Array, have_s: Array, lag: int) -> float:
@@ -203,20 +238,6 @@ def _independent(m: Array, s: Array, have_m: Array, have_s: Array, lag: int) -> 
     power = float(np.sum(e * e))
     r = float(np.sum(e[1:] * e[:-1])) / power if power > 0.0 else 0.0
     return max(len(e) * (1.0 - r) / (1.0 + r), 1.0)
-
-
-def _as_close(distance: Array, best: int, least: float) -> int | None:
-    """The place of another least distance, m2, that is no more than half again as far as the best; None without one.
-
-    least : m, a distance that does not count.
-    """
-    inner = distance[1:-1]
-    lows = np.flatnonzero((inner <= distance[:-2]) & (inner < distance[2:]) & np.isfinite(inner)) + 1
-    lows = lows[lows != best]
-    if not len(lows):
-        return None
-    other = int(lows[np.argmin(distance[lows])])
-    return other if math.sqrt(max(distance[other], 0.0)) <= 1.5 * math.sqrt(max(distance[best], 0.0)) + least else None
 
 
 def _interval(channel: Channel) -> float:

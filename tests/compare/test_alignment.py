@@ -139,3 +139,29 @@ def test_xcorr_tells_of_another_dive_that_fits_as_well() -> None:
     assert abs(found.shift - found.other) in (pytest.approx(1000.0, abs=6.0), pytest.approx(2000.0, abs=6.0))
     assert "about as close" in found.note
     assert align(dive(T, 90.0), dive(T), "xcorr").other is None
+
+
+@pytest.mark.parametrize(("deeper", "noise"), [(0.0, 0.0), (1.0, 0.0), (0.0, 0.3)])
+def test_of_two_like_yos_the_shift_that_lays_both_on_each_other_is_taken(deeper: float, noise: float) -> None:
+    """Samples of 5 and of 7 s: on the steps alone the shift by a whole yo can look closer."""
+
+    def yos(t):
+        return vee(100.0, 900.0, 900.0)(t) + vee(100.0, 900.0, 900.0)(t - 1800.0)
+
+    t, u = np.arange(0.0, 3600.0, 5.0), np.arange(0.0, 3600.0, 7.0)
+    depths = yos(t) + noise * np.random.default_rng(4).normal(size=len(t))
+    found = align(log(t, depth=depths), log(u + 123.4, depth=yos(u) + deeper), "xcorr")
+    assert found.shift == pytest.approx(-123.4, abs=0.7)  # a tenth of a step of 7 s, as above
+    assert found.other == pytest.approx(-123.4 - 1800.0, abs=7.0) or found.other == pytest.approx(1676.6, abs=7.0)
+    assert "about as close" in found.note
+
+
+def test_a_shift_within_its_uncertainty_is_called_so() -> None:
+    """Errors of tens of metres that hang together for hours, about a dive on the right clock."""
+    walk = 40.0 * np.cos((T - 1350.0) / 400.0)
+    found = align(log(T, depth=vee(200.0, 1200.0, 1000.0)(T - 200.0) + walk), dive(T), "xcorr")
+    assert found.certainty is not None
+    assert abs(found.shift) < found.certainty
+    assert found.note.endswith("nothing asks for one")
+    clear = align(dive(T, 90.0), dive(T), "xcorr")
+    assert "nothing asks" not in clear.note
