@@ -224,7 +224,9 @@ def _lows(distance: Array) -> _Lows:
     slope, bent = before - after, np.where(curvature > 0.0, curvature, 1.0)
     between = np.where(curvature > 0.0, 0.5 * slope / bent, 0.0)
     vertex = np.where(curvature > 0.0, here - 0.125 * slope**2 / bent, here)
-    return _Lows(place.astype(np.int64), place.astype(np.float64) + between, np.maximum(vertex, 0.0), np.maximum(curvature, 0.0))
+    return _Lows(
+        place.astype(np.int64), place.astype(np.float64) + between, np.maximum(vertex, 0.0), np.maximum(curvature, 0.0)
+    )
 
 
 def _independent(m: Array, s: Array, have_m: Array, have_s: Array, lag: int) -> float:

@@ -99,7 +99,7 @@ class Comparison:
     @property
     def ranking(self) -> tuple[Ranked, ...]:
         """The simulations from the closest on; see ranking.py."""
-        return ranked(self.runs)
+        return ranked(self.runs, self.chosen)
 
     def document(self) -> dict[str, Any]:
         """The JSON document of the contract; see document.py for its keys."""

@@ -11,7 +11,7 @@
               place_difference: {north_m, east_m, distance_m, relative}}]; side: {time_utc, depth_m} or null; relative
               to the time since the first measured sample, to the measured depth, to the measured way until then
     facts     [{name, published, simulated, tolerance, verdict, place, unit, difference, given, ...}]
-    ranking   [{rank, name, score, of}]: the simulations from the closest on; score is what ranking.py tells
+    ranking   [{rank, name, score, of, by}]: the simulations from the closest on; score is what ranking.py tells
     notes     what a reader of the errors must know, such as channels counted from different zeros
     origins   {measured: {name, origin, reconstruction}, simulated: [the same]}: measured, simulated or reconstruction
 

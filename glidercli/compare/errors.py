@@ -11,11 +11,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.residuals import Residuals
+from glidercli.residuals import Residuals, on_circle
 
 __all__ = ["Errors", "statistics"]
 
 Array = NDArray[np.float64]
+CIRCLE = 360.0
+"""deg; turns added up are no range that an error on the circle could have."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -24,8 +26,8 @@ class Errors:
 
     rmse = sqrt(mean e^2); mae = mean |e|; bias = mean e; std = sqrt(mean (e - bias)^2): rmse^2 = bias^2 + std^2;
     max = largest |e|, first met at max_time_ns (UTC); correlation : Pearson's, of angles after each was unwrapped in
-    time, None for fewer than 2 samples or a constant side; nrmse = rmse / (largest - smallest measured), None where the
-    measured is constant. outside, gap : measured samples left out.
+    time, None for fewer than 2 samples or a constant side; nrmse = rmse / (largest - smallest measured; of angles 360
+    deg at most), None where the measured is constant. outside, gap : measured samples left out.
     """
 
     unit: str
@@ -50,6 +52,8 @@ def statistics(errors: Residuals) -> Errors:
     rmse = math.sqrt(float(np.mean(e * e)))
     worst = int(np.argmax(np.abs(e)))
     spread = _spread(errors.measured)
+    if on_circle(errors.name):
+        spread = min(spread, CIRCLE)
     return Errors(
         unit=errors.unit,
         n=len(e),

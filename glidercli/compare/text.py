@@ -119,9 +119,10 @@ def _ranking(comparison: Comparison) -> list[str]:
     if isinstance(comparison.against, Facts):
         meaning = "part of the judged facts that agree, those given to a simulation apart"
     else:
-        meaning = "mean of nrmse over the channels that all have"
+        names = ", ".join(comparison.ranking[0].by).replace("_", " ") or "no channel"
+        meaning = f"mean of nrmse over {names}, at the samples that all were compared at"
     rows = [[_number(one.rank), one.name, _number(one.score), str(one.of)] for one in comparison.ranking]
-    return [f"The closest first ({meaning}):", *_table(("rank", "simulation", "score", "of"), rows, 0, left=(1,))]
+    return [f"The closest first ({meaning}):", *_table(("rank", "simulation", "score", "values"), rows, 0, left=(1,))]
 
 
 def _percent(part: float | None) -> str:

@@ -153,7 +153,7 @@ def test_what_a_document_gains_is_shown(monkeypatch) -> None:
         told["align"] |= {"certainty_s": 1.5, "note": "certain to 1.5 s"}
         told["bands"] = [{"from_m": 0, "to_m": 50, "channels": told["channels"]}]
         told["outcomes"] = [{"name": "turns", "measured": 7, "simulated": 8, "difference": 1, "relative": 0.14}]
-        told["ranking"] = [{"rank": 1, "name": "first one", "score": 0.5}]
+        told["ranking"] = [{"rank": 1, "name": "first one", "score": 0.5}, {"rank": 2, "name": "other", "score": 0.7}]
         told["track"] = {
             "absolute": errors, "aligned": {**errors, "rotation_deg": 11.5}, "closure": {"distance_m": 401.5},
             "relative": [{"over_s": 300.0, "rmse": 4.5, "n": 20}], "n": 5, "origin": "derived",

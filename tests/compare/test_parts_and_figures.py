@@ -98,9 +98,9 @@ def test_the_closest_simulation_comes_first() -> None:
     found = compare(measured, [off(9.0), off(-3.0), off(9.0)], names=["m", "far", "near", "far too"])
     ranking = found.document()["ranking"]
     assert [(one["rank"], one["name"], one["of"]) for one in ranking] == [
-        (1, "near", 2),
-        (2, "far", 2),
-        (2, "far too", 2),
+        (1, "near", 802),
+        (2, "far", 802),
+        (2, "far too", 802),
     ]
     spread = np.ptp(np.sin(T))
     assert ranking[0]["score"] == pytest.approx(0.5 * (3.0 / 300.0 + 0.3 / spread))
@@ -111,7 +111,7 @@ def test_simulations_without_a_measure_have_no_rank() -> None:
     """A constant measured channel has no range to normalise by."""
     flat = log(T, depth=5.0 + 0.0 * T)
     ranking = compare(flat, [log(T, "simulated", depth=4.0 + 0.0 * T)]).document()["ranking"]
-    assert ranking == [{"rank": None, "name": "simulated", "score": None, "of": 0}]
+    assert ranking == [{"rank": None, "name": "simulated", "score": None, "of": 0, "by": ()}]
 
 
 def test_thousands_of_events_are_paired_in_no_time() -> None:
@@ -122,3 +122,29 @@ def test_thousands_of_events_are_paired_in_no_time() -> None:
     pairs = paired(many, late)
     assert time.process_time() - begun < 5.0  # some 0.1 s; all with all, 400 million, take minutes
     assert all(pair.simulated is not None and pair.simulated.time_ns - pair.measured.time_ns == 1 for pair in pairs)
+
+
+def test_ranking_is_at_samples_that_all_have() -> None:
+    """One that is right for 30 s is no closer than one that is right there and a little off elsewhere."""
+    part = slice(100, 107)
+    whole = log(T, "simulated", depth=DEPTH + np.where(T < 535.0, 0.0, 2.0))
+    short = log(T[part], "simulated", depth=DEPTH[part] + 0.5)
+    ranking = compare(log(T, depth=DEPTH), [short, whole], names=["m", "short", "whole"]).ranking
+    assert [(one.name, one.of) for one in ranking] == [("whole", 7), ("short", 7)]
+
+
+def test_ranking_counts_each_quantity_once_and_nothing_that_was_given() -> None:
+    columns = {
+        "depth": DEPTH, "down": DEPTH, "pitch": np.sin(T), "mass_position": 0.4 + 1e-4 * T, "density": 1025.0 + DEPTH,
+    }  # fmt: skip
+    logs = [log(T, origin, **columns) for origin in ("measured", "simulated", "simulated")]
+    assert compare(logs[0], logs[1:]).ranking[0].by == ("depth", "pitch")
+    assert compare(logs[0], logs[1:], channels=["density"]).ranking[0].by == ("density",)
+
+
+def test_a_heading_that_is_wrong_in_a_spiral_is_not_next_to_right() -> None:
+    """40 turns: an error of half a circle is half of the range that it can have, not a hundredth."""
+    psi = 14400.0 * T / 2000.0
+    measured = log(T, depth=DEPTH, heading=psi % 360.0)
+    found = compare(measured, log(T, "simulated", depth=DEPTH, heading=(psi + 180.0) % 360.0))
+    assert found.runs[0].channels["heading"].nrmse == pytest.approx(0.5, abs=1e-9)

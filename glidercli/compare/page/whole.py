@@ -153,7 +153,7 @@ def _summary(comparison: Comparison, told: Mapping[str, Any], parts: Sequence[Ma
         points = "".join(f"<li>{sentence}</li>" for sentence in run_words(comparison, run, part))
         notes = "".join(f'<li class="note"><b>Note:</b> {escaped(note)}.</li>' for note in run.notes)
         text += f'{head}<ul class="said">{points}{notes}</ul>\n'
-    if told.get("ranking"):
+    if len(told["ranking"]) > 1:
         text += table("Simulations, the closest first", [flat(row) for row in told["ranking"]])
     return text
 
