@@ -21,6 +21,7 @@ from glidercli.dives import LEGS, Interval, mask, phases
 from glidercli.errors import InputError
 from glidercli.log import Log
 from glidercli.residuals import Residuals, residuals
+from glidercli.units import NANOSECOND
 from glidercli.utc import to_second
 
 __all__ = ["Comparison", "Run", "Side", "compare", "matching"]
@@ -204,7 +205,8 @@ def _run(
     bands, without_depth = by_depth(measured, errors, depth_band, max_gap)
     both = tracks(measured, log)
     track = both and both.errors(max_gap)
-    pairs = paired(events_of(measured, intervals), events_of(log, phases(log)))
+    half = 0.5 * min(one.end_ns - one.start_ns for one in (measured, log)) * NANOSECOND
+    pairs = paired(events_of(measured, intervals), events_of(log, phases(log)), half)
     return Run(
         _side(simulated, name),
         log,

@@ -3,7 +3,7 @@
 Events are those that a log names, and from its depth: the deepest sample, the begin and the end of each dive and climb,
 and, where it names none of its own, the apogee of each dive that a climb follows and the surfacing after each climb.
 Events of one name are paired in order of time, the k-th measured with the simulated one that comes closest among those
-left; an event without a partner stands alone.
+left, not those further off than half of the shorter log lasts; an event without a partner stands alone.
 """
 
 from __future__ import annotations
@@ -11,12 +11,14 @@ from __future__ import annotations
 import bisect
 import dataclasses
 import itertools
+import math
 
 import numpy as np
 
 from glidercli.compare.tracks import Tracks
 from glidercli.dives import Interval
 from glidercli.log import Channel, Event, Log
+from glidercli.units import NANOSECOND
 
 __all__ = ["EventPair", "events_of", "located", "paired"]
 
@@ -87,23 +89,27 @@ def _surfacings(depth: Channel, intervals: tuple[Interval, ...]) -> list[Event]:
     return found
 
 
-def paired(measured: tuple[Event, ...], simulated: tuple[Event, ...]) -> tuple[EventPair, ...]:
-    """Events of both logs side by side, in time order."""
+def paired(
+    measured: tuple[Event, ...], simulated: tuple[Event, ...], furthest: float = math.inf
+) -> tuple[EventPair, ...]:
+    """Events of both logs side by side, in time order. furthest : s, from which on two are not the same one."""
     left: dict[str, list[Event]] = {}
     for event in sorted(simulated, key=_when):
         left.setdefault(event.name, []).append(event)
     pairs = []
     for event in measured:
         others = left.get(event.name, [])
-        after = bisect.bisect_left(others, event.time_ns, key=_when)
-        near = min(
-            (place for place in (after - 1, after) if 0 <= place < len(others)),
-            key=lambda place: abs(others[place].time_ns - event.time_ns),
-            default=None,
-        )
+        near = _nearest(others, event.time_ns, furthest)
         pairs.append(EventPair(event.name, event, None if near is None else others.pop(near)))
     pairs += [EventPair(event.name, None, event) for others in left.values() for event in others]
     return tuple(sorted(pairs, key=lambda pair: (pair.measured or pair.simulated or Event("", 0)).time_ns))
+
+
+def _nearest(events: list[Event], time_ns: int, furthest: float) -> int | None:
+    """The place of the event nearest to a time, UTC ns, the earlier of two; None beyond so many s."""
+    after = bisect.bisect_left(events, time_ns, key=_when)
+    apart = [(abs(events[i].time_ns - time_ns) * NANOSECOND, i) for i in (after - 1, after) if 0 <= i < len(events)]
+    return min((one for one in apart if one[0] <= furthest), default=(0.0, None))[1]
 
 
 def _when(event: Event) -> int:

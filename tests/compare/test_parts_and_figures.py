@@ -148,3 +148,15 @@ def test_a_heading_that_is_wrong_in_a_spiral_is_not_next_to_right() -> None:
     measured = log(T, depth=DEPTH, heading=psi % 360.0)
     found = compare(measured, log(T, "simulated", depth=DEPTH, heading=(psi + 180.0) % 360.0))
     assert found.runs[0].channels["heading"].nrmse == pytest.approx(0.5, abs=1e-9)
+
+
+def test_events_far_from_one_another_are_not_the_same() -> None:
+    """Two like yos; the simulated log has the first alone: the second apogee, 1,800 s later, has no partner."""
+    t = np.arange(0.0, 3601.0, 5.0)
+    yos = 100.0 * np.abs(np.sin(np.pi * t / 1800.0))
+    one = t <= 1800.0
+    events = compare(log(t, depth=yos), log(t[one], "simulated", depth=yos[one])).document()["events"]
+    apogees = [one for one in events if one["name"] == "apogee"]
+    assert [(one["time_difference_s"], one["simulated"] is None) for one in apogees] == [(0.0, False), (None, True)]
+    late = compare(log(t, depth=yos), log(t[one] + 3000.0, "simulated", depth=yos[one])).document()["events"]
+    assert all(abs(one["time_difference_s"]) < 900.0 for one in late if one["time_difference_s"] is not None)
