@@ -47,11 +47,16 @@ def provenance(
         "program": f"glidercli {version()}",
         "python": platform.python_version(),
         "numpy": numpy.__version__,
-        "command": argv,
-        "inputs": [{"path": str(path), "sha256": file_hash(Path(path))} for path in inputs],
+        "command": list(map(_writable, argv)),
+        "inputs": [{"path": _writable(str(path)), "sha256": file_hash(Path(path))} for path in inputs],
         "seed": seed,
         "origin": origin,
     }
+
+
+def _writable(text: str) -> str:
+    """A text, such as a file name, that UTF-8 can hold: bytes of a name that are none are written out."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def provenance_json(**arguments: Any) -> str:

@@ -113,7 +113,7 @@ def compare(
             max_gap=max_gap,
             channels=channels,
             depth_band=depth_band,
-            names=[measured, *simulated],
+            names=_called([measured, *simulated]),
         )
         recorded = [run.side for run in comparison.runs if run.side.origin in ("measured", "derived")]
         warn([f"{side.name} is {side.origin}, and stands here as a simulation" for side in recorded], quiet)
@@ -135,6 +135,14 @@ def compare(
         for line in comparison.text().split("\n"):
             prose = line.endswith((".", ":"))  # rows of tables stay whole
             print(shown(line, sys.stdout) if prose else plain(line))
+
+
+def _called(arguments: list[str]) -> list[str]:
+    """What each log is called in every output: as given, controls written out, numbered where given more than once."""
+    from glidercli.cli.printing import plain
+
+    names = [plain(text) for text in arguments]
+    return [f"{name} ({names[: i + 1].count(name)})" if names.count(name) > 1 else name for i, name in enumerate(names)]
 
 
 def _facts_file(text: str) -> Path | None:

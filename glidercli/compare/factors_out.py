@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from glidercli.compare.factors import ANGLES, MEASURES
+from glidercli.compare.text import table
 from glidercli.files import atomic, metadata_path
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def text(found: Factors) -> str:
     rest = [""] * (len(_SHARES) + len(ANGLES))
     rows = [["published", "", *(_number(found.published.get(name), name) for name in MEASURES), *rest]]
     rows += [_row(found, flown) for flown in (found.base, *found.variants)]
-    lines = _aligned(["factor", "variant", *numbers, *shares, *_BEYOND], rows)
+    lines = table(["factor", "variant", *numbers, *shares, *_BEYOND], rows, 2)
     return "\n".join([*lines, "", *_LEGEND])
 
 
@@ -53,18 +53,6 @@ def _number(value: float | None, name: str) -> str:
 def _share(found: Factors, flown: Flown, name: str) -> str:
     share = found.explained(flown, name)
     return "-" if share is None else f"{share:z.1f}{' *' if found.worse(flown, name) else '  '}"
-
-
-def _aligned(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
-    """Columns as wide as their longest cell, the first two to the left, numbers to the right."""
-    widths = [max(len(row[i]) for row in (head, *rows)) for i in range(len(head))]
-    return [
-        "  ".join(
-            cell.ljust(width) if i < 2 else cell.rjust(width)
-            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        for row in (head, *rows)
-    ]
 
 
 def write(found: Factors, path: Path, provenance: dict[str, Any], force: bool) -> None:

@@ -16,7 +16,7 @@ from glidercli.utc import to_second
 if TYPE_CHECKING:
     from glidercli.compare.comparison import Comparison, Run
 
-__all__ = ["text"]
+__all__ = ["table", "text"]
 
 _ERRORS = ("channel", "unit", "n", "rmse", "mae", "bias", "std", "max", "correlation", "nrmse", "skipped")
 _TOLD = ("deepest", "apogee", "bottom", "surfacing")
@@ -41,7 +41,7 @@ def _run(comparison: Comparison, run: Run) -> list[str]:
     lines.append(f"Errors are {run.side.name} less {comparison.measured.name}.")
     for title, rows in (("flight", run.channels), *run.by_phase.items()):
         if rows:
-            lines += ["", f"{title}:", *_table(_ERRORS, [_row(name, errors) for name, errors in rows.items()], 2)]
+            lines += ["", f"{title}:", *table(_ERRORS, [_row(name, errors) for name, errors in rows.items()], 2)]
     if len(run.bands) > 1:
         lines += ["", "rmse by measured depth, m:", *_bands(run)]
     if run.outcomes:
@@ -71,7 +71,7 @@ def _bands(run: Run) -> list[str]:
         if any(name in band.channels for band in shown)
     ]
     left = len(run.bands) - len(shown)
-    return [*_table(head, rows, 2), *([f"{left} deeper bands are in the outputs and in --json."] if left else [])]
+    return [*table(head, rows, 2), *([f"{left} deeper bands are in the outputs and in --json."] if left else [])]
 
 
 def _outcomes(run: Run) -> list[str]:
@@ -79,7 +79,7 @@ def _outcomes(run: Run) -> list[str]:
         [one.name, one.unit, *map(_number, (one.measured, one.simulated, one.difference)), _percent(one.relative)]
         for one in run.outcomes
     ]
-    return _table(("figure", "unit", "measured", "simulated", "difference", "relative"), rows, 2)
+    return table(("figure", "unit", "measured", "simulated", "difference", "relative"), rows, 2)
 
 
 def _track(track: TrackErrors) -> list[str]:
@@ -111,7 +111,7 @@ def _events(pairs: list[EventPair]) -> list[str]:
         numbers = [*map(_number, (later, *depths, deeper, apart))]
         rows.append([pair.name, to_second(pair.measured.time_ns), *numbers, _percent(of_way)])
     head = ("event", "measured, UTC", "later, s", "depth, m", "simulated", "deeper, m", "apart, m", "of the way")
-    return _table(head, rows, 2)
+    return table(head, rows, 2)
 
 
 def _ranking(comparison: Comparison) -> list[str]:
@@ -122,7 +122,7 @@ def _ranking(comparison: Comparison) -> list[str]:
         names = ", ".join(comparison.ranking[0].by).replace("_", " ") or "no channel"
         meaning = f"mean of nrmse over {names}, at the samples that all were compared at"
     rows = [[_number(one.rank), one.name, _number(one.score), str(one.of)] for one in comparison.ranking]
-    return [f"The closest first ({meaning}):", *_table(("rank", "simulation", "score", "values"), rows, 0, left=(1,))]
+    return [f"The closest first ({meaning}):", *table(("rank", "simulation", "score", "values"), rows, 0, left=(1,))]
 
 
 def _percent(part: float | None) -> str:
@@ -153,7 +153,7 @@ def _facts(comparison: Comparison, facts: Facts, run: Run) -> list[str]:
         remark = "; ".join(word for word in (one.reason, fact.note) if word)
         if remark:
             notes.append(f"{fact.name}: {remark}.")
-    lines += _table(_FACTS, rows, 1, left=(0, 3, 4, 5))
+    lines += table(_FACTS, rows, 1, left=(0, 3, 4, 5))
     return [*lines, "", *notes] if notes else lines
 
 
@@ -161,7 +161,7 @@ def _number(value: float | None) -> str:
     return "-" if value is None else f"{value:z.4g}"
 
 
-def _table(head: Sequence[str], rows: Sequence[Sequence[str]], texts: int, left: Sequence[int] = ()) -> list[str]:
+def table(head: Sequence[str], rows: Sequence[Sequence[str]], texts: int, left: Sequence[int] = ()) -> list[str]:
     """Columns as wide as their longest cell, the first ``texts`` and those in ``left`` to the left, others right."""
     widths = [max(len(row[i]) for row in (head, *rows)) for i in range(len(head))]
     return [

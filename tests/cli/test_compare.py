@@ -324,3 +324,24 @@ def test_what_cannot_be_read_is_no_input(tmp_path: Path) -> None:
     done = glider("d", "d/sea035.12.gli.sub.36", "-o", "e.json", folder=tmp_path)
     assert done.returncode == 0, done.stderr
     assert "d/pipe: is no regular file" in done.stderr
+
+
+@pytest.mark.skipif(sys.platform == "darwin", reason="its file names are UTF-8")
+def test_names_that_no_text_holds_are_written_out(tmp_path: Path) -> None:
+    """A byte that is no UTF-8, and a control character, in each output."""
+    write_log(tmp_path / "measured.csv")
+    write_log(tmp_path / "simulated.csv")
+    odd = tmp_path / os.fsdecode(b"sim\xff\x1b.csv")
+    os.rename(tmp_path / "simulated.csv", odd)
+    outputs = [tmp_path / f"out.{kind}" for kind in ("csv", "json", "html", "png", "rrd", "mcap")]
+    result = glider(tmp_path / "measured.csv", odd, *(word for path in outputs for word in ("-o", path)))
+    assert result.returncode == 0, result.stderr
+    assert "\x1b" not in result.stdout + result.stderr
+    assert "Warning" not in result.stderr
+    assert "sim\\udcff\\x1b.csv" in (tmp_path / "out.csv").read_text(encoding="utf-8")
+
+
+def test_a_log_that_is_given_twice_is_numbered(logs) -> None:
+    measured, simulated = logs
+    ranking = json.loads(glider(measured, simulated, simulated, "--json").stdout)["ranking"]
+    assert [one["name"] for one in ranking] == [f"{simulated} (1)", f"{simulated} (2)"]

@@ -7,17 +7,14 @@ import json
 import math
 import subprocess
 import sys
-from collections import defaultdict
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from google.protobuf.descriptor_pb2 import FileDescriptorSet
-from google.protobuf.descriptor_pool import DescriptorPool
-from google.protobuf.message_factory import GetMessageClass
 from mcap.reader import make_reader
+from mcap_files import Written, messages
 
 from glidercli.channels import CHANNELS, PHASES
 from glidercli.live.pacing import between
@@ -69,26 +66,13 @@ def attitude_log() -> Log:
     return depth_log().with_channels(*angles, channel("temperature", 12.0, TIMES - 10**9))
 
 
-Written = dict[str, list[tuple[int, Any]]]
 LOGS = [full_log, depth_log, event_log, attitude_log]
 
 
 def written(log: Log, path: Path) -> Written:
-    """All messages by topic as (log time, message), decoded by the descriptors in the file and nothing else."""
+    """What is written of a log."""
     write_mcap(log, path)
-    kinds: dict[int, Any] = {}
-    found: Written = defaultdict(list)
-    with path.open("rb") as stream:
-        for schema, own, message in make_reader(stream, validate_crcs=True).iter_messages():
-            assert schema is not None
-            assert message.publish_time == message.log_time
-            if schema.id not in kinds:
-                pool = DescriptorPool()
-                for file in FileDescriptorSet.FromString(schema.data).file:
-                    pool.Add(file)
-                kinds[schema.id] = GetMessageClass(pool.FindMessageTypeByName(schema.name))
-            found[own.topic].append((message.log_time, kinds[schema.id].FromString(message.data)))
-    return found
+    return messages(path)
 
 
 def stamps(message: Any) -> list[int]:
@@ -123,8 +107,8 @@ def test_a_simulation_of_a_reconstruction_says_so() -> None:
 
 @pytest.mark.parametrize("log", LOGS)
 def test_timestamps_are_the_log_times(log: Callable[[], Log], tmp_path: Path) -> None:
-    for topic, messages in written(log(), tmp_path / "a.mcap").items():
-        for time_ns, message in messages:
+    for topic, sent in written(log(), tmp_path / "a.mcap").items():
+        for time_ns, message in sent:
             assert all(stamp == time_ns for stamp in stamps(message)), topic
 
 

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections import defaultdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from google.protobuf.descriptor_pb2 import FileDescriptorSet
-from google.protobuf.descriptor_pool import DescriptorPool
-from google.protobuf.message_factory import GetMessageClass
 from mcap.reader import make_reader
+from mcap_files import messages
 from rrd_files import START, channel, log_of, page, panels, rerun_program, rows, told_by_the_verifier
 from test_validators import BIN, NODE, ran
 
@@ -57,21 +54,6 @@ def compared(count: int = 2, channels: list[str] | None = None, **told: str) -> 
 def saved(comparison: Comparison, *paths: Path) -> None:
     shown = overlay(comparison, {"command": ["test"], "origin": comparison.origin})
     write(shown.log, *paths, beside=shown.beside, names=shown.names, errors=shown.errors)
-
-
-def messages(path: Path) -> dict[str, list[tuple[int, Any]]]:
-    """All messages by topic as (log time, message), decoded by the descriptors in the file and nothing else."""
-    kinds: dict[int, Any] = {}
-    found = defaultdict(list)
-    with path.open("rb") as stream:
-        for schema, own, message in make_reader(stream, validate_crcs=True).iter_messages():
-            if schema.id not in kinds:
-                pool = DescriptorPool()
-                for file in FileDescriptorSet.FromString(schema.data).file:
-                    pool.Add(file)
-                kinds[schema.id] = GetMessageClass(pool.FindMessageTypeByName(schema.name))
-            found[own.topic].append((message.log_time, kinds[schema.id].FromString(message.data)))
-    return found
 
 
 def records(path: Path) -> dict[str, dict[str, str]]:

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli.log import Log
+from glidercli.places import track_of_geodetic
 
 __all__ = ["track"]
 
 Array = NDArray[np.float64]
-Origin = tuple[float, float]
 
 
 def track(logs: Sequence[Log], most: int) -> dict[str, Any] | None:
@@ -29,7 +29,7 @@ def track(logs: Sequence[Log], most: int) -> dict[str, Any] | None:
     origin : [latitude, longitude], deg, or null. apart : numbers of the logs without an origin, beside others with one.
     interpolated : numbers of the logs whose depth is taken between its samples. thinned : numbers of logs.
     """
-    origins = [_origin(log) for log in logs]
+    origins = [log.place for log in logs]
     frame = next((origin for origin in origins if origin is not None), None)
     lines: list[dict[str, Any]] = []
     interpolated, thin, apart = [], [], []
@@ -39,7 +39,8 @@ def track(logs: Sequence[Log], most: int) -> dict[str, Any] | None:
             continue
         north, east, depth, between = found
         if origin is not None and frame is not None:
-            north, east = north + _way(origin, frame)[0], east + _way(origin, frame)[1]
+            way = track_of_geodetic(*origin, *frame)
+            north, east = north + way[0], east + way[1]
         elif frame is not None:
             apart.append(number)
         chosen = np.linspace(0, len(north) - 1, min(len(north), most)).round().astype(np.int64)
@@ -73,23 +74,6 @@ def _of(log: Log) -> tuple[Array, Array, Array, bool] | None:
     return (
         columns[0][inside], columns[1][inside], np.interp(times[inside], depth.time_ns, depth.values), True,
     )  # fmt: skip
-
-
-def _origin(log: Log) -> Origin | None:
-    """Latitude and longitude of a log's origin, deg; None where it names none that is a place."""
-    try:
-        latitude, longitude = (float(log.metadata[f"origin_{name}_deg"]) for name in ("latitude", "longitude"))
-    except (KeyError, ValueError):
-        return None
-    return (latitude, longitude) if abs(latitude) <= 90.0 and abs(longitude) <= 360.0 else None
-
-
-def _way(to: Origin, start: Origin) -> tuple[float, float]:
-    """Way north and east, m, from one origin to another."""
-    from glidercli.places import track_of_geodetic
-
-    north, east = track_of_geodetic(*to, *start)
-    return float(north), float(east)
 
 
 def _exaggeration(lines: list[dict[str, Any]]) -> float:

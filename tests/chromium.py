@@ -13,7 +13,7 @@ import time
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from websockets.sync.client import connect
 
@@ -30,8 +30,10 @@ PATIENCE = 20.0
 class Tab:
     """A tab of a browser, over its debugging protocol.
 
-    requests : URLs asked for. faults : console messages of level error, exceptions, and what the policy refused.
+    more : what else the browser is to tell of. requests : URLs asked for. faults : console messages of level error, exceptions, and what the policy refused.
     """
+
+    more: tuple[str, ...] = ("Log",)
 
     def __init__(self, socket: Any) -> None:
         self._socket, self._number = socket, 0
@@ -42,20 +44,25 @@ class Tab:
         self._number += 1
         self._socket.send(json.dumps({"id": self._number, "method": method, "params": parameters}))
         while True:
-            told: dict[str, Any] = json.loads(self._socket.recv(PATIENCE))
-            about = told.get("params", {})
-            if told.get("method") == "Network.requestWillBeSent":
-                self.requests.append(about["request"]["url"])
-            elif told.get("method") == "Runtime.exceptionThrown":
-                self.faults.append(str(about["exceptionDetails"]))
-            elif told.get("method") == "Runtime.consoleAPICalled" and about["type"] in ("error", "assert"):
-                self.faults.append(str([item.get("value", item.get("description")) for item in about["args"]]))
-            elif told.get("method") == "Log.entryAdded" and about["entry"]["level"] == "error":
-                self.faults.append(about["entry"]["text"])
+            told = self.heard(PATIENCE)
             if told.get("id") == self._number:
                 assert "error" not in told, told
                 result: dict[str, Any] = told["result"]
                 return result
+
+    def heard(self, seconds: float) -> dict[str, Any]:
+        """The next thing that the browser tells; TimeoutError where it tells nothing for so long."""
+        told: dict[str, Any] = json.loads(self._socket.recv(seconds))
+        about = told.get("params", {})
+        if told.get("method") == "Network.requestWillBeSent":
+            self.requests.append(about["request"]["url"])
+        elif told.get("method") == "Runtime.exceptionThrown":
+            self.faults.append(str(about["exceptionDetails"]))
+        elif told.get("method") == "Runtime.consoleAPICalled" and about["type"] in ("error", "assert"):
+            self.faults.append(str([item.get("value", item.get("description")) for item in about["args"]]))
+        elif told.get("method") == "Log.entryAdded" and about["entry"]["level"] == "error":
+            self.faults.append(about["entry"]["text"])
+        return told
 
     def run(self, script: str) -> Any:
         """The value of a JavaScript expression."""
@@ -99,8 +106,11 @@ class Tab:
         return base64.b64decode(self.call("Page.printToPDF", printBackground=False, preferCSSPageSize=False)["data"])
 
 
+T = TypeVar("T", bound=Tab)
+
+
 @contextlib.contextmanager
-def browser(folder: Path) -> Iterator[Tab]:
+def browser(folder: Path, kind: type[T] = Tab) -> Iterator[T]:  # type: ignore[assignment]
     """A tab of a browser of its own, whose profile is in this folder."""
     assert CHROMIUM is not None
     command = [CHROMIUM, *FLAGS, f"--user-data-dir={folder}", "about:blank"]
@@ -115,8 +125,8 @@ def browser(folder: Path) -> Iterator[Tab]:
         with urllib.request.urlopen(f"http://127.0.0.1:{port}/json") as answer:
             (tab,) = [tab for tab in json.load(answer) if tab["type"] == "page"]
         with connect(tab["webSocketDebuggerUrl"], max_size=None) as socket:
-            found = Tab(socket)
-            for domain in ("Network", "Runtime", "Page", "Log"):
+            found = kind(socket)
+            for domain in ("Network", "Runtime", "Page", *kind.more):
                 found.call(f"{domain}.enable")
             yield found
     finally:
