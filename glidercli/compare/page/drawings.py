@@ -18,6 +18,13 @@ if TYPE_CHECKING:
 
 __all__ = ["over_time", "tracks"]
 
+_OTHERS = {
+    "way_m": "level length of the tracks, m",
+    "closure": "simulated from measured place at the last surfacing; relative to the way until then",
+    "skipped": "measured samples of the track left out",
+}
+"""Captions of what is told of a track beside its errors."""
+
 
 def over_time(comparison: Comparison, drawn: Plots) -> str:
     """Plots over time with their controls; "" where nothing is drawn."""
@@ -122,7 +129,7 @@ def _distances(name: str, track: Mapping[str, Any]) -> str:
     if track.get("relative"):
         text += table(f"{name}: error of the way made good over a time", [flat(row) for row in track["relative"]])
     others = [{"track": key, **flat(one)} for key, one in inside.items() if "rmse" not in one]
-    return text + "".join(table(f"{name}: {row['track']} of the track", [row]) for row in others)
+    return text + "".join(table(f"{name}: {_OTHERS.get(row['track'], row['track'])}", [row]) for row in others)
 
 
 def _extents(track: Mapping[str, Any], shorts: Sequence[str]) -> str:
