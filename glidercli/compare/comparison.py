@@ -223,14 +223,14 @@ def _run(
 
 
 def _other_zeros(measured: Log, simulated: Log, channels: Iterable[str]) -> Iterator[str]:
-    """Channels that the two logs count from different zeros: their offset is in every error."""
+    """Channels that the two logs count from different zeros: what lies between these is in every error."""
     for channel in channels:
         zeros = [log.metadata.get(f"{channel}_zero", "") for log in (measured, simulated)]
         if zeros[0] != zeros[1]:
             told = "; ".join(
                 f"{side}: {zero}" for side, zero in zip(("measured", "simulated"), zeros, strict=True) if zero
             )
-            yield f"{channel.replace('_', ' ')} is counted from different zeros ({told}): its errors hold that offset"
+            yield f"{channel.replace('_', ' ')} is counted from different zeros ({told}): its errors hold what lies between them"
 
 
 def _no_depth(counts: Mapping[str, int]) -> Iterator[str]:
