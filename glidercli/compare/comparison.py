@@ -230,7 +230,8 @@ def _other_zeros(measured: Log, simulated: Log, channels: Iterable[str]) -> Iter
             told = "; ".join(
                 f"{side}: {zero}" for side, zero in zip(("measured", "simulated"), zeros, strict=True) if zero
             )
-            yield f"{channel.replace('_', ' ')} is counted from different zeros ({told}): its errors hold what lies between them"
+            named = channel.replace("_", " ")
+            yield f"{named} is counted from different zeros ({told}): its errors hold what lies between them"
 
 
 def _no_depth(counts: Mapping[str, int]) -> Iterator[str]:

@@ -58,7 +58,8 @@ def over_time(comparison: Comparison, drawn: Plots) -> str:
     notes = "".join(f" {escaped(note)}" for note in drawn.notes)
     return (
         f"<p>Time is counted from {drawn.data['zero']}.{below}{bands}{legs}{events} Lines are broken where samples are "
-        f"missing for longer than usual. All plots share their time axis: drag over one, or use the buttons.{thin}{notes}</p>\n"
+        "missing for longer than usual. All plots share their time axis: drag over one, or use the buttons."
+        f"{thin}{notes}</p>\n"
         f'<noscript><p class="note">The plots need JavaScript; words and tables do not.</p></noscript>\n'
         f'<div class="controls plotcontrols" role="group" aria-label="Controls of the plots">'
         f"{_toggles(comparison, drawn)}"
