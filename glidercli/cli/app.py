@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from glidercli.cli import compare, info, lists, replay, simulate, trim
+from glidercli.cli import coefficients, compare, info, lists, replay, simulate, trim
 
 app = typer.Typer(
     name="glider",
@@ -41,6 +41,7 @@ app.command("simulate", no_args_is_help=True)(simulate.simulate)
 app.command("replay", no_args_is_help=True)(replay.replay)
 app.command("info", no_args_is_help=True)(info.info)
 app.command("compare", no_args_is_help=True)(compare.compare)
+app.add_typer(coefficients.app, name="coefficients")
 app.command("vehicles")(lists.vehicles)
 app.command("missions")(lists.missions)
 app.command("layouts")(lists.layouts)

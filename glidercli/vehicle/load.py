@@ -14,7 +14,7 @@ from glidercli.files import read_toml
 from glidercli.vehicle.quantity import Quantity
 from glidercli.vehicle.vehicle import Vehicle
 
-__all__ = ["load_vehicle", "shipped_vehicles"]
+__all__ = ["check", "load_vehicle", "shipped_vehicles"]
 
 _DATA = Path(__file__).parent / "data"
 
@@ -56,6 +56,17 @@ def _read(path: Path) -> Vehicle:
         return TypeAdapter(Vehicle).validate_python(given, context={"file": str(path)})
     except ValidationError as error:
         raise InputError.of_all(path, [_fault(item) for item in error.errors(include_url=False)]) from None
+
+
+def check(given: dict[str, Any], path: Path) -> tuple[list[str], list[str]]:
+    """What the tables of a file lack to be a vehicle, and every other fault that they have."""
+    try:
+        TypeAdapter(Vehicle).validate_python(given, context={"file": str(path)})
+    except ValidationError as error:
+        found = error.errors(include_url=False)
+        lacking = [".".join(map(str, item["loc"])) for item in found if item["type"] == "missing"]
+        return lacking, [_fault(item) for item in found if item["type"] != "missing"]
+    return [], []
 
 
 def _fault(item: Any) -> str:

@@ -45,6 +45,10 @@ class Quantity:
         numbers = "" if self.size == 1 else f"{self.size} numbers, each "
         return f"{numbers}{self.minimum:g}..{self.maximum:g} {self.unit}"
 
+    def in_file(self, value: float) -> float:
+        """A number in SI as a file gives it, in its unit."""
+        return value / _TO_SI.get(self.unit, 1.0)
+
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
         """Let pydantic call ``check`` and collect what it refuses."""
         return core_schema.with_info_plain_validator_function(self.check)

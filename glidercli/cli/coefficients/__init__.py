@@ -1,0 +1,11 @@
+"""``glider coefficients``: from shape and forces to the numbers of a vehicle file."""
+
+from __future__ import annotations
+
+import typer
+
+app = typer.Typer(
+    help="Where a vehicle's numbers come from: added mass, the CFD cases, the fit, estimates.",
+    rich_markup_mode=None,
+    no_args_is_help=True,
+)
