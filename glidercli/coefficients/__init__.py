@@ -1,1 +1,1 @@
-"""Where do the numbers of a vehicle come from? Added mass by strip theory, the CFD cases, the fit, estimates (sections 2.5, 3)."""
+"""Where do a vehicle's numbers come from? Added mass, the CFD cases, the fit, estimates: sections 2.5 and 3."""
