@@ -31,7 +31,7 @@ class Quantity:
 
     unit : the unit that a file must state.
     minimum, maximum : physical range in that unit, both allowed.
-    size : 1 for a number, 3 for a vector or the diagonal of a matrix.
+    size : 1 for a number, 3 for a vector or the diagonal of a matrix, 0 for a list of any length.
     """
 
     unit: str
@@ -42,7 +42,7 @@ class Quantity:
     @property
     def allowed(self) -> str:
         """The range as text."""
-        numbers = "" if self.size == 1 else f"{self.size} numbers, each "
+        numbers = "" if self.size == 1 else f"{self.size} numbers, each " if self.size else "a list of numbers, each "
         return f"{numbers}{self.minimum:g}..{self.maximum:g} {self.unit}"
 
     def in_file(self, value: float) -> float:
@@ -73,7 +73,8 @@ class Quantity:
             value = given / to_si if scalar else [item / to_si for item in given]
         numbers: list[Any] = list(value) if isinstance(value, (list, tuple)) else [value]
         right_kind = all(isinstance(n, (int, float)) and not isinstance(n, bool) and math.isfinite(n) for n in numbers)
-        if len(numbers) != self.size or isinstance(value, (list, tuple)) != (self.size > 1) or not right_kind:
+        right_size = len(numbers) == self.size or (not self.size and len(numbers) > 0)
+        if not right_size or isinstance(value, (list, tuple)) != (self.size != 1) or not right_kind:
             self._refuse(f"= {value!r}, allowed {self.allowed}")
         if not all(self.minimum <= n <= self.maximum for n in numbers):
             self._refuse(f"= {value!r} {self.unit}, allowed {self.allowed}")

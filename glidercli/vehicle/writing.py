@@ -9,7 +9,8 @@ from typing import Any, get_args, get_type_hints
 
 from glidercli.errors import InputError
 from glidercli.files import read_toml
-from glidercli.vehicle.load import check, shipped_vehicles
+from glidercli.vehicle.checking import check
+from glidercli.vehicle.load import shipped_vehicles
 from glidercli.vehicle.quantity import Quantity
 from glidercli.vehicle.vehicle import Vehicle
 
@@ -58,7 +59,7 @@ def revised(base: Path, tables: Mapping[str, Mapping[str, Number]], *, name: str
         for key, number in numbers.items():
             document[table][key] = _entry(_unit(table, key), number)
     text = tomlkit.dumps(document)
-    missing, faults = check(document.unwrap(), base)
+    missing, faults = check(Vehicle, document.unwrap(), base)
     if faults:
         raise InputError.of_all(base, faults)
     return text, missing
