@@ -46,7 +46,8 @@ def _fault(cls: type, item: Any) -> str:
         case "unexpected_keyword_argument":
             return f"{key} is unknown; known here: {', '.join(_known(cls, item['loc'][:-1]))}"
         case "value_error":
-            return str(item["ctx"]["error"])
+            told = str(item["ctx"]["error"])
+            return told if told.startswith(key) else f"{key}: {told}"
         case _:
             return f"{key} = {item['input']!r}: {item['msg']}"
 

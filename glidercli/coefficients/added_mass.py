@@ -1,0 +1,187 @@
+"""What water does a vehicle drag along? Each part's added mass and the whole's, about the centre of buoyancy.
+
+Two answers side by side. ``strips``: hull and surfaces by strips alone, as section 2.5 of the paper does; surge is
+Lamb's, since strips have none. ``corrected``: the hull by the exact values of the spheroid of its length and volume,
+the surfaces with the flow around their tips and the hull's own flow across.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from glidercli.coefficients.geometry import Geometry, HullShape
+from glidercli.coefficients.planform import middle, root
+from glidercli.coefficients.spheroid import spheroid
+from glidercli.coefficients.strips import Terms, hull_strips, surface_strips
+
+if TYPE_CHECKING:
+    from glidercli.vehicle.vehicle import AddedMass
+    from glidercli.vehicle.writing import Number
+
+__all__ = ["MODEL", "Estimate", "Row", "added_mass", "of_vehicle"]
+
+_PROFILE = 0.685
+"""Area of a profile over chord times thickness: NACA four-digit sections."""
+
+
+class Row(NamedTuple):
+    """A term as it is told: its symbol in the paper, its unit and its name in ``Terms``."""
+
+    symbol: str
+    unit: str
+    name: str
+
+
+MODEL = (
+    Row("X_u'", "kg", "surge"), Row("Y_v'", "kg", "sway"), Row("Z_w'", "kg", "heave"), Row("K_p'", "kg m2", "roll"),
+    Row("M_q'", "kg m2", "pitch"), Row("N_r'", "kg m2", "yaw"), Row("N_v' = Y_r'", "kg m", "yaw_from_sway"),
+    Row("M_w' = Z_q'", "kg m", "pitch_from_heave"),
+)  # fmt: skip
+"""The eight terms of the model: eq. (14), Table 3."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Estimate:
+    """Added mass of a geometry.
+
+    origin : the centre of buoyancy along the hull, in the lengths of the geometry, m. volume : of hull and surfaces,
+    m3. strips, corrected : terms of each part, "hull" first, then the surfaces by name.
+    """
+
+    geometry: Geometry
+    origin: float
+    volume: float
+    strips: dict[str, Terms]
+    corrected: dict[str, Terms]
+
+    def total(self, corrected: bool = True) -> Terms:
+        """The whole vehicle's."""
+        parts = self.corrected if corrected else self.strips
+        return sum(parts.values(), Terms())
+
+    def numbers(self, corrected: bool, source: str) -> dict[str, dict[str, Number]]:
+        """Tables of a vehicle file: its hull's dimensions and its added mass."""
+        from glidercli.vehicle.writing import Number
+
+        t = self.total(corrected)
+        hull = self.geometry.hull
+        how = f"{source}, {'corrected strips' if corrected else 'strips'}"
+        return {
+            "hull": {"length": Number(hull.length_overall, source), "diameter": Number(hull.thickest, source)},
+            "added_mass": {
+                "mass": Number((t.surge, t.sway, t.heave), how, "M_A"),
+                "inertia": Number((t.roll, t.pitch, t.yaw), how, "I_A"),
+                "yaw_from_sway": Number(t.yaw_from_sway, how, "N_v' = Y_r'"),
+                "pitch_from_heave": Number(t.pitch_from_heave, how, "M_w' = Z_q'"),
+            },
+        }
+
+    def notes(self) -> list[str]:
+        """What a reader must know of this geometry."""
+        hull, found = self.geometry.hull, []
+        nose, tail = hull.ends
+        for name, surface in self.geometry.surface.items():
+            inner = root(surface, hull) or 0.0
+            at = float(middle(surface, np.array([inner]))[0])
+            if not tail <= at <= nose:
+                where = "ahead of the nose" if at > nose else "behind the hull's tail"
+                found.append(f"surface {name} stands {where}, on something that is not in the geometry")
+            elif inner > surface.root_offset + 1e-9 or surface.root_offset == 0.0:
+                continue
+            elif surface.root_offset > float(hull.radius(np.array([at]))[0]) + 0.005:
+                found.append(f"surface {name} begins {surface.root_offset:g} m from the axis, off the hull")
+        left = self.total()
+        if left.roll_from_sway or left.roll_from_yaw:
+            found.append(
+                f"fins on one side couple roll to sway (M(v,p) = {left.roll_from_sway:.3g} kg m) and to yaw (M(p,r) = "
+                f"{left.roll_from_yaw:.3g} kg m2), for which the model has no place"
+            )
+        return found
+
+    def document(self) -> dict[str, Any]:
+        """As JSON."""
+        return {
+            "origin": "estimated",
+            "geometry": self.geometry.name,
+            "centre_of_buoyancy_m": self.origin,
+            "volume_m3": self.volume,
+            "displaced_mass_kg": self.volume * self.geometry.density,
+            "density_kg_m3": self.geometry.density,
+            "terms": [
+                {
+                    "symbol": row.symbol, "name": row.name, "unit": row.unit,
+                    "strips": getattr(self.total(False), row.name), "corrected": getattr(self.total(), row.name),
+                    "parts": {
+                        part: {
+                            "strips": getattr(self.strips[part], row.name),
+                            "corrected": getattr(self.corrected[part], row.name),
+                        }
+                        for part in self.strips
+                    },
+                }
+                for row in MODEL
+            ],
+            "without_place_in_the_model": {
+                "roll_from_sway_kg_m": self.total().roll_from_sway, "roll_from_yaw_kg_m2": self.total().roll_from_yaw,
+            },
+            "notes": self.notes(),
+        }  # fmt: skip
+
+
+def added_mass(geometry: Geometry) -> Estimate:
+    """Added mass of a geometry in its water, about its centre of buoyancy, by strips and by corrected strips."""
+    hull = geometry.hull
+    volumes = {"hull": _hull_volume(hull), **{name: _surface_volume(geometry, name) for name in geometry.surface}}
+    volume = sum(item[0] for item in volumes.values())
+    centre = round(sum(item[0] * item[1] for item in volumes.values()) / volume, 12)  # less is rounding
+    origin = centre if geometry.centre_of_buoyancy is None else geometry.centre_of_buoyancy
+    bare = hull_strips(hull, origin, geometry.density).tidied(volume * geometry.density, hull.length_overall)
+    exact = _exact(hull, bare, volumes["hull"], origin, geometry.density)
+    surfaces = {
+        corrected: {name: surface_strips(item, geometry, origin, corrected) for name, item in geometry.surface.items()}
+        for corrected in (False, True)
+    }
+    return Estimate(
+        geometry, origin, volume, {"hull": dataclasses.replace(bare, surge=exact.surge), **surfaces[False]},
+        {"hull": exact, **surfaces[True]},
+    )  # fmt: skip
+
+
+def of_vehicle(added: AddedMass) -> Terms:
+    """A vehicle's own added mass in the same terms."""
+    return Terms(*added.mass, *added.inertia, added.yaw_from_sway, added.pitch_from_heave)
+
+
+def _exact(hull: HullShape, bare: Terms, volume: tuple[float, float], origin: float, density: float) -> Terms:
+    """The hull's strips brought to the exact values of the spheroid of its length and volume: its own, for one."""
+    length = hull.length_overall
+    diameter = (6.0 * volume[0] / (np.pi * length)) ** 0.5
+    k = spheroid(length, diameter)
+    arm = volume[1] - origin
+    mass = k.k2 * bare.sway
+    about_centre = bare.yaw - bare.sway * arm * arm
+    turning = about_centre * k.k_turn * (1.0 + (diameter / length) ** 2) + mass * arm * arm
+    return Terms(
+        surge=k.k1 * density * volume[0], sway=mass, heave=mass, pitch=turning, yaw=turning, yaw_from_sway=mass * arm,
+        pitch_from_heave=-mass * arm,
+    )  # fmt: skip
+
+
+def _hull_volume(hull: HullShape) -> tuple[float, float]:
+    """Volume, m3, and its centre along the hull, m."""
+    strips = hull_strips(hull, 0.0, 1.0)
+    return strips.sway, strips.yaw_from_sway / strips.sway
+
+
+def _surface_volume(geometry: Geometry, name: str) -> tuple[float, float]:
+    """Volume of a surface outside of the hull, m3, and its centre along the hull, m."""
+    surface = geometry.surface[name]
+    s = np.linspace(root(surface, geometry.hull) or 0.0, surface.semi_span, 201)
+    area = _PROFILE * surface.thickness * surface.chord(s) ** 2
+    volume = float(np.trapezoid(area, s)) * surface.panels
+    if not volume > 0.0:
+        return 0.0, 0.0
+    return volume, float(np.trapezoid(area * middle(surface, s), s)) * surface.panels / volume
