@@ -8,20 +8,26 @@ the surfaces with the flow around their tips and the hull's own flow across.
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from pydantic.dataclasses import dataclass
 
 from glidercli.coefficients.geometry import Geometry, HullShape
+from glidercli.coefficients.keeping import Kept
 from glidercli.coefficients.planform import middle, root
 from glidercli.coefficients.spheroid import spheroid
 from glidercli.coefficients.strips import Terms, hull_strips, surface_strips
+from glidercli.files import read_toml
+from glidercli.vehicle.checking import checked
+from glidercli.vehicle.vehicle import AddedMass
 
 if TYPE_CHECKING:
-    from glidercli.vehicle.vehicle import AddedMass
+    from glidercli.coefficients.rest import Rest
     from glidercli.vehicle.writing import Number
 
-__all__ = ["MODEL", "Estimate", "Row", "added_mass", "of_vehicle"]
+__all__ = ["MODEL", "Estimate", "Row", "added_mass", "answer", "terms_of"]
 
 _PROFILE = 0.685
 """Area of a profile over chord times thickness: NACA four-digit sections."""
@@ -150,9 +156,45 @@ def added_mass(geometry: Geometry) -> Estimate:
     )  # fmt: skip
 
 
-def of_vehicle(added: AddedMass) -> Terms:
-    """A vehicle's own added mass in the same terms."""
-    return Terms(*added.mass, *added.inertia, added.yaw_from_sway, added.pitch_from_heave)
+def terms_of(vehicle: Path) -> tuple[str, Terms] | None:
+    """Name and added mass of a vehicle file, in the same terms; None of one that has none yet.
+
+    Raises InputError if the file has added mass that no vehicle can have.
+    """
+    given = read_toml(vehicle, "a vehicle")
+    if "added_mass" not in given:
+        return None
+    added = checked(_Whole, {"added_mass": given["added_mass"]}, vehicle).added_mass
+    return str(given.get("name", vehicle.stem)), Terms(
+        *added.mass, *added.inertia, added.yaw_from_sway, added.pitch_from_heave
+    )
+
+
+@dataclass(frozen=True)
+class _Whole:
+    """A vehicle file that need not be whole."""
+
+    added_mass: AddedMass
+
+
+def answer(found: Estimate, beside: tuple[str, Terms] | None, left: Rest | None, vehicle: str) -> Kept:
+    """The estimate ready to be kept. vehicle : text of a vehicle file, or ""."""
+    from glidercli.coefficients.shape_figure import draw_shape
+
+    rows: dict[str, list[Any]] = {"symbol": [row.symbol for row in MODEL], "unit": [row.unit for row in MODEL]}
+    for column, which in (("strips", False), ("corrected", True)):
+        rows[column] = [getattr(found.total(which), row.name) for row in MODEL]
+        for part in found.strips:
+            terms = (found.corrected if which else found.strips)[part]
+            rows[f"{part}_{column}"] = [getattr(terms, row.name) for row in MODEL]
+    document = found.document()
+    if beside is not None:
+        rows["vehicle"] = [getattr(beside[1], row.name) for row in MODEL]
+        for term, value in zip(document["terms"], rows["vehicle"], strict=True):
+            term["vehicle"] = value
+        document["vehicle"] = beside[0]
+        document["left_for_surfaces"] = None if left is None else left.document()
+    return Kept(rows, document, lambda: draw_shape(found, beside), vehicle)
 
 
 def _exact(hull: HullShape, bare: Terms, volume: tuple[float, float], origin: float, density: float) -> Terms:

@@ -95,14 +95,16 @@ def surface_strips(surface: Surface, geometry: Geometry, origin: float, correcte
     since the strip pushes the hull in turn, and with surge, rho pi t^2/4 of a profile t thick; else the bare strips.
     """
     inner = root(surface, geometry.hull) or 0.0
-    span = 2.0 * (surface.semi_span - inner)  # the hull stands beside a panel as a wall: the panel and its image
+    panel = surface.semi_span - inner
     mean = float(surface.chord(np.array([(inner + surface.semi_span) / 2.0]))[0])
-    share = end_factor(span, mean) if corrected else 1.0
-    if span >= mean:
-        terms = _chords(surface, geometry, inner, origin, corrected)
-    else:
-        terms = _sections(surface, geometry, origin)
-    return Terms(*(value * (share if name != "surge" else 1.0) for name, value in dataclasses.asdict(terms).items()))
+    in_chords = 2.0 * panel >= mean  # the hull stands beside a panel as a wall: the panel and its image
+    terms = _chords(surface, geometry, inner, origin, corrected) if in_chords else _sections(surface, geometry, origin)
+    if not corrected:
+        return terms
+    share = end_factor(2.0 * panel, mean)
+    alone = end_factor(panel, mean) * min(1.0, panel / mean) if in_chords else share  # rolling panels part from another
+    shares = {"surge": 1.0, "roll": alone}
+    return Terms(*(value * shares.get(name, share) for name, value in dataclasses.asdict(terms).items()))
 
 
 def _chords(surface: Surface, geometry: Geometry, inner: float, origin: float, corrected: bool) -> Terms:

@@ -35,12 +35,12 @@ def vehicle_file(name_or_path: str | Path) -> Path:
     return shipped_vehicles().get(str(name_or_path), Path(name_or_path))
 
 
-def revised(base: Path, tables: Mapping[str, Mapping[str, Number]], *, name: str) -> tuple[str, list[str]]:
+def revised(base: Path | None, tables: Mapping[str, Mapping[str, Number]], *, name: str) -> tuple[str, list[str]]:
     """The text of a vehicle file with numbers replaced or added, and the names of what it still lacks to be whole.
 
-    base : a vehicle file; tables and numbers may be missing in it. Its comments stay.
+    base : a vehicle file; tables and numbers may be missing in it. Its comments stay. None begins a new file.
     tables : numbers by table and key, as {"added_mass": {"mass": Number(...)}}; their units are the vehicle's.
-    name : of the new vehicle, if the base is a shipped one; a file of the user's keeps its own.
+    name : of the new vehicle, if it is new or the base a shipped one; a file of the user's keeps its own.
 
     Raises
     ------
@@ -49,19 +49,21 @@ def revised(base: Path, tables: Mapping[str, Mapping[str, Number]], *, name: str
     """
     import tomlkit
 
-    read_toml(base, "a vehicle")
-    document: Any = tomlkit.parse(base.read_text(encoding="utf-8"))
-    if base in shipped_vehicles().values():
+    document: Any = tomlkit.document()
+    if base is not None:
+        read_toml(base, "a vehicle")
+        document = tomlkit.parse(base.read_text(encoding="utf-8"))
+    if base is None or base in shipped_vehicles().values():
         document["name"] = name
     for table, numbers in tables.items():
         if not isinstance(document.setdefault(table, tomlkit.table()), dict):
-            raise InputError(base, f"{table} = {document[table]!r} is no table; write [{table}]")
+            raise InputError(base or name, f"{table} = {document[table]!r} is no table; write [{table}]")
         for key, number in numbers.items():
             document[table][key] = _entry(_unit(table, key), number)
     text = tomlkit.dumps(document)
-    missing, faults = check(Vehicle, document.unwrap(), base)
+    missing, faults = check(Vehicle, document.unwrap(), base or Path(name))
     if faults:
-        raise InputError.of_all(base, faults)
+        raise InputError.of_all(base or name, faults)
     return text, missing
 
 

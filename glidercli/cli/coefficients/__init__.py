@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import typer
 
+from glidercli.cli.coefficients import added_mass
+
 app = typer.Typer(
     help="Where a vehicle's numbers come from: added mass, the CFD cases, the fit, estimates.",
     rich_markup_mode=None,
     no_args_is_help=True,
 )
+app.command("added-mass", no_args_is_help=True)(added_mass.added_mass)
