@@ -139,17 +139,18 @@ class Estimate:
 
 def added_mass(geometry: Geometry) -> Estimate:
     """Added mass of a geometry in its water, about its centre of buoyancy, by strips and by corrected strips."""
-    hull = geometry.hull
-    volumes = {"hull": _hull_volume(hull), **{name: _surface_volume(geometry, name) for name in geometry.surface}}
+    shape = geometry.hull
+    volumes = {"hull": _hull_volume(shape), **{name: _surface_volume(geometry, name) for name in geometry.surface}}
     volume = sum(item[0] for item in volumes.values())
     centre = round(sum(item[0] * item[1] for item in volumes.values()) / volume, 12)  # less is rounding
     origin = centre if geometry.centre_of_buoyancy is None else geometry.centre_of_buoyancy
-    bare = hull_strips(hull, origin, geometry.density).tidied(volume * geometry.density, hull.length_overall)
-    exact = _exact(hull, bare, volumes["hull"], origin, geometry.density)
+    bare = hull_strips(shape, origin, geometry.density)
+    exact = _exact(shape, bare, volumes["hull"], origin, geometry.density)
     surfaces = {
         corrected: {name: surface_strips(item, geometry, origin, corrected) for name, item in geometry.surface.items()}
         for corrected in (False, True)
     }
+    bare, exact = (hull.tidied(volume * geometry.density, shape.length_overall) for hull in (bare, exact))
     return Estimate(
         geometry, origin, volume, {"hull": dataclasses.replace(bare, surge=exact.surge), **surfaces[False]},
         {"hull": exact, **surfaces[True]},

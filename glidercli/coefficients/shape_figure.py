@@ -18,17 +18,27 @@ if TYPE_CHECKING:
 
 __all__ = ["draw_shape"]
 
+_VIEW = 5.5  # inch, of the vehicle's length
+
 
 def draw_shape(estimate: Estimate, beside: tuple[str, Terms] | None) -> Figure:
     """The figure. beside : name and terms of a vehicle."""
     from matplotlib.figure import Figure
 
     g = estimate.geometry
-    figure = Figure(figsize=(WIDTH, 6.0), layout="constrained")
-    above, side, terms = figure.subplots(3, 1, height_ratios=(1.2, 0.8, 1.3))
+    x = [*g.hull.ends, *(item for s in g.surface.values() for item in _outlines(g, s)[0][0])]
+    across = [
+        max([g.hull.thickest / 2.0, *(s.semi_span for s in g.surface.values() if s.plane == plane)])
+        for plane in ("horizontal", "vertical")
+    ]
+    scale = _VIEW / (max(x) - min(x))  # inch of paper for a metre, in both views
+    heights = [2.3 * half * scale for half in across]
+    figure = Figure(figsize=(WIDTH, sum(heights) + 4.0), layout="constrained")
+    above, side, terms = figure.subplots(3, 1, height_ratios=(*heights, 2.2))
     figure.suptitle(f"{g.name}: ESTIMATED added mass, corrected strips", fontsize=9)
     for axes, plane, title in ((above, "horizontal", "from above"), (side, "vertical", "from starboard")):
         _view(axes, g, plane, title)
+        axes.set_xlim(min(x) - 0.1 / scale, max(x) + 0.1 / scale)
         axes.plot([estimate.origin], [0.0], "+", color=COLOURS[0], markersize=8, label="centre of buoyancy")
     above.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
     side.set_xlabel("along the hull, m, forward to the right")
