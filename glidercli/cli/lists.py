@@ -1,4 +1,4 @@
-"""``glider vehicles``, ``glider missions`` and ``glider layouts``: what is shipped, one plain line each."""
+"""``glider vehicles``, ``missions``, ``layouts`` and ``coefficients geometries``: what is shipped, a plain line each."""
 
 from __future__ import annotations
 
@@ -23,6 +23,13 @@ def missions(json: Json = False, quiet: Quiet = False, debug: Debug = False) -> 
     from glidercli.simulation.mission_file import load_mission
 
     _show({name: load_mission(name)[0].description for name in shipped.missions()}, "missions", json)
+
+
+def geometries(json: Json = False, quiet: Quiet = False, debug: Debug = False) -> None:
+    """List the shipped geometries: name, two spaces, description."""
+    from glidercli.coefficients.geometry import load_geometry, shipped_geometries
+
+    _show({name: load_geometry(name)[0].description for name in shipped_geometries()}, "geometries", json)
 
 
 def layouts(

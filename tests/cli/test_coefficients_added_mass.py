@@ -113,3 +113,9 @@ def test_a_base_that_cannot_be_is_named(run, mine, tmp_path):
     base = tmp_path / "base.toml"
     base.write_text('added_mass = "heavy"\n')
     one_line_error(run(mine, "--vehicle", base), "base.toml: added_mass")
+
+
+def test_shipped_geometries_are_listed(glider, glider_json):
+    names = [line.split("  ")[0] for line in glider("coefficients", "geometries").stdout.splitlines()]
+    assert "seawing" in names
+    assert [item["name"] for item in glider_json("coefficients", "geometries")["geometries"]] == names

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import typer
 
+from glidercli.cli import lists
 from glidercli.cli.coefficients import added_mass
 
 app = typer.Typer(
@@ -12,3 +13,4 @@ app = typer.Typer(
     no_args_is_help=True,
 )
 app.command("added-mass", no_args_is_help=True)(added_mass.added_mass)
+app.command("geometries")(lists.geometries)
