@@ -1,4 +1,4 @@
-"""``glider vehicles``, ``missions``, ``layouts`` and ``coefficients geometries``: what is shipped, a plain line each."""
+"""``glider vehicles``, ``missions``, ``layouts``, ``coefficients geometries``: what is shipped, a plain line each."""
 
 from __future__ import annotations
 
