@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import typer
 
+from glidercli.cli.coefficients import cases, fit
+
 app = typer.Typer(
     help="Where a vehicle's numbers come from: added mass, the CFD cases, the fit, estimates.",
     rich_markup_mode=None,
     no_args_is_help=True,
 )
+app.command("cases")(cases.cases)
+app.command("fit", no_args_is_help=True)(fit.fit)
