@@ -150,7 +150,7 @@ def _rates_by_radius(table: Table, found: dict[str, Column], speed: Array, R: Ar
     cells = [cell if cell.lower() not in ("inf", "infinity") else "" for cell in table.cells[name]]
     radius = table.measured(name) if cells == list(table.cells[name]) else _finite_or_gap(table, name)
     if "set" not in table:
-        if np.isnan(radius).all():
+        if np.isnan(radius).all() or {"p", "q", "r"} <= set(found):
             return None
         raise InputError(table.path, f"line 1: set missing beside {name}; it holds {', '.join(SETS)}")
     Omega = np.zeros((len(table), 3))

@@ -112,34 +112,26 @@ def text(result: Result) -> str:
     rows = _rows(result)
     beside = any(row["base_value"] is not None for row in rows)
     lines = [
-        f"{f.path}: {len(f.lines)} cases, {result.used} used; {fit.density:.6g} kg/m3, "
-        f"angles to {result.fitted_angle / DEGREE:.4g} deg"
-        + ("; added mass taken off" if result.subtracted else ""),
+        f"{f.path}: {len(f.lines)} cases, {result.used} used",
+        f"{fit.density:.6g} kg/m3, angles to {result.fitted_angle / DEGREE:.4g} deg"
+        + ("; forces of added mass taken off" if result.subtracted else ""),
         "",
-        "        coefficient        value   std error  unit          cases"
-        + ("        base   difference, std errors" if beside else ""),
-    ]  # fmt: skip
+        "coefficient               value  std error  unit       cases" + ("      base  off/std" if beside else ""),
+    ]
     for row in rows:
-        line = (
-            f"{row['symbol']:<7} {row['name']:<15}{row['value']:>9.4g}  {row['standard_error']:>10.2g}  "
-            f"{row['unit']:<12}  {row['cases']:>5}"
-        )
+        line = f"{row['symbol']:<6} {row['name']:<13}{row['value']:>11.5g}{row['standard_error']:>11.2g}  "
+        line += f"{row['unit']:<9}{row['cases']:>7}"
         if row["base_value"] is not None:
             apart = row["difference_in_standard_errors"]
-            line += f"{row['base_value']:>12.4g}" + ("" if apart is None else f"   {apart:>+10.2f}")
+            line += f"{row['base_value']:>10.5g}" + ("" if apart is None else f"{apart:>+9.2f}")
         lines.append(line)
-    lines += [
-        "",
-        "equation                 of                         R2   rms residual  largest  at line  correlation",
-    ]
+    lines += ["", "equation                    R2   rms residual   largest  at line  correlation"]
     for one in fit.fitted:
         e = _equation(result, one)
         alike = "" if e["correlation"] is None else f"{e['correlation']:+.3f}"
         worst = e["largest_residual"]
-        lines.append(
-            f"{e['name']:<24} {e['set']:<23}{e['r_squared']:>7.4f}  {e['rms_residual']:>9.2g} {e['unit']:<3}  "
-            f"{worst['value']:>+8.1g}  {worst['line']:>6}  {alike:>11}"
-        )
+        line = f"{e['name']:<22}{e['r_squared']:>8.4f}{e['rms_residual']:>11.2g} {e['unit']:<3}"
+        lines.append(f"{line}{worst['value']:>+10.2g}{worst['line']:>9}{alike:>13}".rstrip())
     lines += ["R2 is about the mean."]
     if result.kept and result.base is not None:
         lines.append(f"Not fitted, of {result.base.path.name}: {', '.join(result.kept)}")

@@ -12,7 +12,6 @@ from glidercli.cli.options import Debug, Force, Json, Quiet, output_option
 
 if TYPE_CHECKING:
     from glidercli.coefficients.case_table import CaseTable
-    from glidercli.vehicle.vehicle import Hull
 
 
 def cases(
@@ -79,7 +78,7 @@ def cases(
     if stdout:
         write_csv(found, sys.stdout)
     else:
-        print(json_text(document) if json else _text(table, hull, vehicle))
+        print(json_text(document) if json else _text(table, vehicle))
 
 
 def _water(
@@ -106,20 +105,20 @@ def _water(
     return {"density": float(seawater.density(absolute, temperature, 0.0)), "viscosity": viscous, **given}
 
 
-def _text(table: CaseTable, hull: Hull, vehicle: str) -> str:
+def _text(table: CaseTable, vehicle: str) -> str:
     """The table for people: how many of what, the water, the domain, a line a radius."""
     column = table.columns
     counts = table.counts()
     first = {name: values[0] for name, values in column.items()}
     lines = [
-        f"{len(column['case'])} cases for {vehicle}: {counts['straight']} straight (k-epsilon), "
-        f"{counts['about-p3']} turning about p3, {counts['about-p2']} about p2 (k-omega)",
+        f"{len(column['case'])} cases for {vehicle}",
+        f"straight         {counts['straight']}, k-epsilon: angle of attack or sideslip -12 to 12 deg by 1",
+        f"turning          {counts['about-p3']} about p3, {counts['about-p2']} about p2, k-omega, at each radius:",
+        "                 sideslip -3 0 3 6 9 12 deg, angle of attack -3 3 6 9 deg",
         f"speed            {first['speed_m_s']:g} m/s, Reynolds number {first['reynolds_number']:.3g}",
         f"water            {first['density_kg_m3']:.6g} kg/m3, {first['viscosity_Pa_s']:.5g} Pa s",
-        f"domain           {first['domain_length_m']:.4g} m long, {first['domain_width_m']:.4g} m wide and high, "
-        f"inlet {first['inlet_distance_m']:.4g} m ahead of the centre of buoyancy",
-        "straight         angle of attack -12 to 12 deg by 1, and sideslip -12 to 12 deg by 1",
-        "turning          sideslip -3, 0, 3, 6, 9, 12 deg, and angle of attack -3, 3, 6, 9 deg, at each radius",
+        f"domain           {first['domain_length_m']:.4g} m long, {first['domain_width_m']:.4g} m wide and high,",
+        f"                 inlet {first['inlet_distance_m']:.4g} m ahead of the centre of buoyancy",
         "",
         "radius m   rate rad/s   inlet m/s: inner edge   centre   outer edge",
     ]

@@ -59,7 +59,7 @@ def fit(
     from glidercli.coefficients.result import fit as fitted
     from glidercli.coefficients.telling import columns, document, text
     from glidercli.errors import UsageError
-    from glidercli.files import check_not_inputs, check_outputs
+    from glidercli.files import check_not_inputs, check_outputs, readable_file
     from glidercli.pictures import PICTURES
     from glidercli.provenance import provenance
 
@@ -73,7 +73,7 @@ def fit(
         raise UsageError(f"-o {vehicles[0]}: a vehicle file needs --vehicle for what forces do not tell")
     if len(vehicles) > 1:
         raise UsageError(f"-o {vehicles[1]}: one vehicle file is made at a time")
-    inputs = [forces, *([Path(vehicle)] if vehicle and Path(vehicle).suffix else [])]
+    inputs = [readable_file(forces), *([Path(vehicle)] if vehicle and Path(vehicle).suffix else [])]
     check_outputs(outputs, (*TABLES, ".toml", *PICTURES), force)
     check_not_inputs(files, inputs)
 
