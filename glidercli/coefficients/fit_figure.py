@@ -52,14 +52,14 @@ _ROW = 2.25  # inch
 
 
 def figure(result: Result) -> Figure:
-    """The panels of Fig. 8 of the paper that the table has data for, three in a row."""
+    """The panels of Fig. 8 of the paper that the table has data for, at most three in a row."""
     from matplotlib.figure import Figure
 
     equations = {one.equation.name: one for one in result.fit.fitted}
     shown = [panel for panel in _PANELS if panel.equation in equations]
     ratio = {"drag", "lift"} <= set(equations) and np.array_equal(equations["drag"].rows, equations["lift"].rows)
     count = len(shown) + ratio
-    across = min(count, 3)
+    across = 2 if count == 4 else min(count, 3)
     down = -(-count // across)
     head, foot = 0.72, 0.72
     height = head + foot + _ROW * down
@@ -136,6 +136,7 @@ def _panel(main: Axes, beneath: Axes, result: Result, panel: _Panel, one: Fitted
     main.set_title(f"({letter}) {panel.title}", loc="left")
     main.set_ylabel(panel.label)
     beneath.set_xlabel(_AXES[panel.across])
+    beneath.locator_params(axis="x", nbins=5)
     main.tick_params(labelbottom=False)
 
 

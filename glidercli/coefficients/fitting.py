@@ -204,6 +204,9 @@ def _too_few(f: Forces, equation: Equation, chosen: Rows) -> str:
     if of_kind and not count:
         column = next(name for name, symbol in FLOW.items() if symbol == equation.measured)
         return f"{spelled(column)}, or the body's, in {of_kind} cases {equation.cases}"
+    if not count:
+        least = " and ".join(f"{number} {what}" for what, number in equation.needed.items())
+        return f"no case {equation.cases}; at least {len(equation.unknowns) + 1} with {least} are needed"
     distinct = {
         "angles of attack": _distinct(f.alpha[chosen]),
         "sideslips": _distinct(f.beta[chosen]),

@@ -132,7 +132,7 @@ def text(result: Result) -> str:
         worst = e["largest_residual"]
         line = f"{e['name']:<22}{e['r_squared']:>8.4f}{e['rms_residual']:>11.2g} {e['unit']:<3}"
         lines.append(f"{line}{worst['value']:>+10.2g}{worst['line']:>9}{alike:>13}".rstrip())
-    lines += ["R2 is about the mean."]
+    lines.append("R2 is about the mean." + (" off/std: from the base, in standard errors." if beside else ""))
     if result.kept and result.base is not None:
         lines.append(f"Not fitted, of {result.base.path.name}: {', '.join(result.kept)}")
     return "\n".join(lines)

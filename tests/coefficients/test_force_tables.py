@@ -177,8 +177,8 @@ def test_columns_of_another_sort_are_named_and_left_alone(tmp_path, lines):
 @pytest.mark.parametrize(
     ("keep", "told"),
     [
-        (lambda r: r["set"] == "straight", r"KMY, Kr \(yaw moment\): 0 cases turning about p3, with 0 of 2 sideslips and 0 of 2 radii.*KMR, Kp.*Kq.*--partial"),
-        (lambda r: r["set"] != "straight", r"KD0, KD \(drag\): 0 cases straight.*Kbeta"),
+        (lambda r: r["set"] == "straight", r"KMY, Kr \(yaw moment\): no case turning about p3; at least 3 with 2 sideslips and 2 radii are needed.*KMR, Kp.*Kq.*--partial"),
+        (lambda r: r["set"] != "straight", r"KD0, KD \(drag\): no case straight.*Kbeta"),
         (lambda r: r["set"] != "straight" or (abs(float(r["angle_of_attack_deg"])) <= 1 and float(r["angle_of_attack_deg"]) != 1), r"KD0, KD \(drag\): 24 cases|2 of 3 angles of attack"),
         (lambda r: r["set"] != "about-p3" or r["turning_radius_m"] == "5.0", r"KMY, Kr \(yaw moment\): 10 cases turning about p3, with 1 of 2 radii needed"),
         (lambda r: r["set"] != "about-p2" or r["sideslip_deg"] == "0.0", r"KMR, Kp \(roll moment\): 25 cases turning about p2 \(or p1\), with 1 of 2 sideslips"),
