@@ -14,6 +14,7 @@ from glidercli.coefficients.force_columns import BODY_FORCES, BODY_MOMENTS, FLOW
 from glidercli.errors import InputError
 from glidercli.ocean.source import read_text
 from glidercli.ocean.table import Table, parse_table
+from glidercli.origins import origins
 from glidercli.units import DEGREE
 
 __all__ = ["Forces", "read_forces", "to_body"]
@@ -36,7 +37,7 @@ class Forces(NamedTuple):
     lines : of the file, (n,). alpha, beta, speed : (n,). Omega : body rates (p, q, r), (n, 3). density : (n,), kg/m3,
     or NaN. kind : "straight", "about-p1", "about-p2", "about-p3" or "about another axis", (n,).
     measured : D, SF, L, T1, T2, T3 of eq. (20), (n, 6). frame : "flow", "body" or both, that they were given in.
-    ignored : columns that are not used.
+    ignored : columns that are not used. origin : what a column of that name says, as measured or simulated.
     """
 
     path: Path
@@ -50,6 +51,7 @@ class Forces(NamedTuple):
     measured: Array
     frame: str
     ignored: list[str]
+    origin: tuple[str, ...]
 
 
 def to_body(alpha: Array, beta: Array) -> Array:
@@ -74,9 +76,9 @@ def read_forces(path: Path) -> Forces:
         raise InputError(
             path, f"holds no force and no moment; needed is one of {', '.join(map(spelled, FLOW))} or more"
         )
-    return Forces(
-        path, np.array(table.lines), alpha, beta, speed, Omega, density, _kinds(R, Omega), measured, frame, ignored
-    )
+    said = origins(path, zip(table.lines, table.cells["origin"], strict=True)) if "origin" in table else ()
+    lines, kind = np.array(table.lines), _kinds(R, Omega)
+    return Forces(path, lines, alpha, beta, speed, Omega, density, kind, measured, frame, ignored, said)
 
 
 def _column(table: Table, column: Column, low: float, high: float, gaps: bool = False) -> Array:

@@ -20,10 +20,11 @@ def new_vehicle(result: Result, base: Base, name: str) -> tuple[str, list[str]]:
     if faults := impossible(result):
         raise InputError.of_all(result.forces.path, faults)
     table = result.forces.path.name
+    cases = " ".join((*result.forces.origin, "cases"))
     note = "the added mass's part was taken off the forces first" if result.subtracted else ""
     hydro = {
         SYMBOLS[symbol][0]: Number(
-            value, f"fitted to {len(one.rows)} cases of {table} ({one.equation.cases}), standard error {error:.2g}",
+            value, f"fitted to {len(one.rows)} {cases} of {table} ({one.equation.cases}), standard error {error:.2g}",
             f"K_{symbol[1:]}", note,
         )
         for symbol, (value, error, one) in result.fit.values().items()

@@ -11,7 +11,7 @@ from glidercli.units import DEGREE
 
 __all__ = ["columns", "document", "text"]
 
-R_SQUARED = "1 - residuals over measured, squares about the mean of the measured; without a constant it can be negative"
+R_SQUARED = "1 - sum of squared residuals over that of the table's values about their mean; without a constant it can be negative"
 
 
 def _unit(one: Fitted) -> str:
@@ -55,6 +55,7 @@ def document(result: Result) -> dict[str, Any]:
     f = result.forces
     return {
         "forces": str(f.path),
+        "origin": list(f.origin),
         "frame": f.frame,
         "cases": {
             "records": len(f.lines),
@@ -81,7 +82,7 @@ def _equation(result: Result, one: Fitted) -> dict[str, Any]:
     worst = int(abs(one.found.residual).argmax())
     return {
         "name": one.equation.name,
-        "measured": one.equation.measured,
+        "force": one.equation.measured,
         "unit": _unit(one),
         "coefficients": list(one.equation.unknowns),
         "held": list(one.equation.held),
@@ -96,7 +97,7 @@ def _equation(result: Result, one: Fitted) -> dict[str, Any]:
         "correlation": one.found.correlation,
         "condition": one.found.condition,
         "lines": lines,
-        "measured_values": one.measured.tolist(),
+        "table_values": one.measured.tolist(),
         "fitted_values": one.fitted.tolist(),
     }  # fmt: skip
 
@@ -112,7 +113,7 @@ def text(result: Result) -> str:
     rows = _rows(result)
     beside = any(row["base_value"] is not None for row in rows)
     lines = [
-        f"{f.path}: {len(f.lines)} cases, {result.used} used",
+        f"{f.path}: {len(f.lines)} {' '.join((*f.origin, 'cases'))}, {result.used} used",
         f"{fit.density:.6g} kg/m3, angles to {result.fitted_angle / DEGREE:.4g} deg"
         + ("; forces of added mass taken off" if result.subtracted else ""),
         "",

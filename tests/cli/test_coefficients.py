@@ -181,7 +181,7 @@ def test_json_of_a_fit(glider_json: Any, forces: Path) -> None:
         "KD0", "KD", "KL0", "Kalpha", "KM0", "KM", "Kbeta", "KMY", "Kr", "KMR", "Kp", "Kq",
     ]  # fmt: skip
     for one in document["equations"]:
-        residual = np.array(one["measured_values"]) - np.array(one["fitted_values"])
+        residual = np.array(one["table_values"]) - np.array(one["fitted_values"])
         assert one["rms_residual"] == pytest.approx(np.sqrt(np.mean(residual**2)))
         assert one["largest_residual"]["value"] == pytest.approx(residual[np.abs(residual).argmax()])
         assert one["largest_residual"]["line"] == one["lines"][int(np.abs(residual).argmax())]
@@ -272,6 +272,19 @@ def test_fit_refused(
     if code == 1:
         assert done.stderr.startswith("glider: error: ")
         assert done.stderr.count("\n") == 1
+
+
+def test_what_forces_are_is_said_everywhere(glider: Run, tmp_path: Path, forces: Path) -> None:
+    table = pd.read_csv(forces).assign(origin="simulated")
+    table.to_csv(tmp_path / "cfd.csv", index=False)
+    done = glider("coefficients", "fit", "cfd.csv", "--vehicle", "seawing", "-o", "new.toml", "-o", "f.json")
+    assert "149 simulated cases" in done.stdout
+    assert "fitted to 25 simulated cases of cfd.csv" in (tmp_path / "new.toml").read_text()
+    assert json.loads((tmp_path / "f.json").read_text())["origin"] == ["simulated"]
+    table.assign(origin="guessed").to_csv(tmp_path / "odd.csv", index=False)
+    refused = glider("coefficients", "fit", "odd.csv")
+    assert refused.returncode == 1
+    assert "line 2: origin = 'guessed'; allowed: reconstruction" in refused.stderr
 
 
 def test_quiet_says_nothing_but_the_answer(glider: Run, forces: Path) -> None:
