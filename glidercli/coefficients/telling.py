@@ -11,7 +11,9 @@ from glidercli.units import DEGREE
 
 __all__ = ["columns", "document", "text"]
 
-R_SQUARED = "1 - sum of squared residuals over that of the table's values about their mean; without a constant it can be negative"
+R_SQUARED = (
+    "1 - squares of the residuals over those of the forces about their mean; negative at worst, without a constant"
+)
 
 
 def _unit(one: Fitted) -> str:
