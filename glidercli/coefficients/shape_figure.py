@@ -95,6 +95,8 @@ def _bars(axes: Axes, estimate: Estimate, beside: tuple[str, Terms] | None) -> N
         above, below = above + np.maximum(share, 0.0), below + np.minimum(share, 0.0)
     axes.axhline(1.0, color=COLOURS[0], linewidth=1.0, label="their sum" if beside is None else beside[0])
     axes.axhline(0.0, color="#444444", linewidth=0.6)
+    low, high = min(0.0, below.min()), max(1.0, above.max())
+    axes.set_ylim(low - 0.05 * (high - low) * (low < 0.0), high + 0.05 * (high - low))
     axes.set_xticks(places, [row.symbol for row in MODEL])
     axes.set_ylabel("share of the sum" if beside is None else f"share of {beside[0]}'s term")
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)

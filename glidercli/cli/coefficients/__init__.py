@@ -5,7 +5,7 @@ from __future__ import annotations
 import typer
 
 from glidercli.cli import lists
-from glidercli.cli.coefficients import added_mass
+from glidercli.cli.coefficients import added_mass, cases, fit
 
 app = typer.Typer(
     help="Where a vehicle's numbers come from: added mass, the CFD cases, the fit, estimates.",
@@ -13,4 +13,6 @@ app = typer.Typer(
     no_args_is_help=True,
 )
 app.command("added-mass", no_args_is_help=True)(added_mass.added_mass)
+app.command("cases")(cases.cases)
+app.command("fit", no_args_is_help=True)(fit.fit)
 app.command("geometries")(lists.geometries)

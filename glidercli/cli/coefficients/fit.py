@@ -1,0 +1,99 @@
+"""``glider coefficients fit``: the coefficients of eq. (20) from a table of cases and forces."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from glidercli.cli.options import Debug, Force, Json, Quiet, output_option
+
+
+def fit(
+    forces: Annotated[
+        Path,
+        typer.Argument(
+            metavar="FORCES.csv",
+            help="Cases with forces: the table of `cases` with drag_N side_force_N lift_N roll_moment_N_m "
+            "pitch_moment_N_m yaw_moment_N_m (flow frame), or body_x_force_N ... body_z_moment_N_m.",
+        ),
+    ],
+    vehicle: Annotated[
+        str | None,
+        typer.Option(
+            "--vehicle", metavar="NAME|FILE.toml", help="Shown beside the fit; supplies what a new vehicle file keeps."
+        ),
+    ] = None,
+    density: Annotated[
+        float | None,
+        typer.Option(metavar="KG/M3", help="Of the water in the table, if it has no column density_kg_m3."),
+    ] = None,
+    partial: Annotated[
+        bool, typer.Option("--partial", help="Fit what the table tells; the rest stays the vehicle's.")
+    ] = False,
+    hold: Annotated[
+        list[str] | None, typer.Option(metavar="NAME", help="Coefficient that stays the vehicle's, as Kp; may repeat.")
+    ] = None,
+    subtract_munk: Annotated[
+        bool,
+        typer.Option(
+            "--subtract-munk",
+            help="The forces hold those of added mass, as CFD and tow tanks measure them; the model adds them itself, "
+            "so take off what the vehicle's added mass gives.",
+        ),
+    ] = False,
+    output: Annotated[
+        list[Path] | None, output_option(".csv .json .parquet, a vehicle to .toml, residuals to .png .svg .pdf")
+    ] = None,
+    force: Force = False,
+    json: Json = False,
+    quiet: Quiet = False,
+    debug: Debug = False,
+) -> None:
+    """Coefficients of eq. (20) from forces, by least squares in the order of section 3.3, with standard errors."""
+    from glidercli.cli.printing import finite, json_text, plain, say, warn
+    from glidercli.coefficients.fit_figure import figure
+    from glidercli.coefficients.keeping import TABLES, Kept, keep
+    from glidercli.coefficients.new_vehicle import new_vehicle
+    from glidercli.coefficients.result import fit as fitted
+    from glidercli.coefficients.telling import columns, document, text
+    from glidercli.errors import UsageError
+    from glidercli.files import check_not_inputs, check_outputs, readable_file
+    from glidercli.pictures import PICTURES
+    from glidercli.provenance import provenance
+
+    outputs = output or []
+    stdout = Path("-") in outputs
+    if json and stdout:
+        raise UsageError("-o - and --json both want stdout; leave one out")
+    files = [path for path in outputs if path != Path("-")]
+    vehicles = [path for path in files if path.suffix.lower() == ".toml"]
+    if vehicles and vehicle is None:
+        raise UsageError(f"-o {vehicles[0]}: a vehicle file needs --vehicle for what forces do not tell")
+    if len(vehicles) > 1:
+        raise UsageError(f"-o {vehicles[1]}: one vehicle file is made at a time")
+    inputs = [readable_file(forces), *([Path(vehicle)] if vehicle and Path(vehicle).suffix else [])]
+    check_outputs(outputs, (*TABLES, ".toml", *PICTURES), force)
+    check_not_inputs(files, inputs)
+
+    result = fitted(
+        forces, vehicle=vehicle, density=density, subtract_munk=subtract_munk, partial=partial, hold=hold or []
+    )
+    warnings = list(result.warnings)
+    new = ""
+    if vehicles and result.base is not None:
+        new, missing = new_vehicle(result, result.base, vehicles[0].stem)
+        if missing:
+            warnings.append(f"{vehicles[0]} is not a whole vehicle yet; missing: {', '.join(missing)}")
+    told = finite({**document(result), "warnings": warnings})
+    found = Kept(columns(result), told, lambda: figure(result), new)
+    keep(found, *files, record=provenance(inputs=inputs, origin="computed"), force=force)
+    warn(warnings, quiet)
+    for path in files:
+        say(f"wrote {path}", quiet)
+    if json or stdout:
+        print(json_text(told))
+    else:
+        for line in text(result).split("\n"):
+            print(plain(line))
