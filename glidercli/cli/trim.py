@@ -98,9 +98,10 @@ def trim(
     from glidercli.cli.progress import progress
     from glidercli.errors import UsageError
     from glidercli.files import check_not_inputs, check_outputs
+    from glidercli.keeping import TABLES
     from glidercli.pictures import PICTURES
     from glidercli.provenance import provenance
-    from glidercli.trim.output import SUFFIXES, TABLES, write
+    from glidercli.trim.output import SUFFIXES, write
     from glidercli.trim.pins import QUANTITIES
 
     pins: dict[str, float] = {

@@ -8,22 +8,18 @@ the surfaces with the flow around their tips and the hull's own flow across.
 from __future__ import annotations
 
 import dataclasses
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from pydantic.dataclasses import dataclass
 
 from glidercli.coefficients.geometry import Geometry, HullShape
-from glidercli.coefficients.keeping import Kept
 from glidercli.coefficients.planform import middle, root
 from glidercli.coefficients.spheroid import spheroid
 from glidercli.coefficients.strips import Terms, hull_strips, surface_strips
-from glidercli.files import read_toml
-from glidercli.vehicle.checking import checked
-from glidercli.vehicle.vehicle import AddedMass
+from glidercli.keeping import Kept
 
 if TYPE_CHECKING:
+    from glidercli.coefficients.base import Base
     from glidercli.coefficients.rest import Rest
     from glidercli.vehicle.writing import Number
 
@@ -157,25 +153,11 @@ def added_mass(geometry: Geometry) -> Estimate:
     )  # fmt: skip
 
 
-def terms_of(vehicle: Path) -> tuple[str, Terms] | None:
-    """Name and added mass of a vehicle file, in the same terms; None of one that has none yet.
-
-    Raises InputError if the file has added mass that no vehicle can have.
-    """
-    given = read_toml(vehicle, "a vehicle")
-    if "added_mass" not in given:
+def terms_of(base: Base) -> tuple[str, Terms] | None:
+    """Name and added mass of a vehicle in the same terms; None of one that has none yet."""
+    if (added := base.added_mass) is None:
         return None
-    added = checked(_Whole, {"added_mass": given["added_mass"]}, vehicle).added_mass
-    return str(given.get("name", vehicle.stem)), Terms(
-        *added.mass, *added.inertia, added.yaw_from_sway, added.pitch_from_heave
-    )
-
-
-@dataclass(frozen=True)
-class _Whole:
-    """A vehicle file that need not be whole."""
-
-    added_mass: AddedMass
+    return base.name, Terms(*added.mass, *added.inertia, added.yaw_from_sway, added.pitch_from_heave)
 
 
 def answer(found: Estimate, beside: tuple[str, Terms] | None, left: Rest | None, vehicle: str) -> Kept:

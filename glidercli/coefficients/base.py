@@ -8,20 +8,23 @@ from typing import Any, NamedTuple
 from glidercli.coefficients.fitting import SYMBOLS
 from glidercli.errors import InputError
 from glidercli.files import read_toml
-from glidercli.vehicle.load import check, shipped_vehicles
-from glidercli.vehicle.vehicle import AddedMass
+from glidercli.vehicle.checking import check
+from glidercli.vehicle.load import shipped_vehicles
+from glidercli.vehicle.vehicle import AddedMass, Vehicle
 from glidercli.vehicle.writing import vehicle_file
 
 __all__ = ["Base", "read_base"]
 
 
 class Base(NamedTuple):
-    """path : of the file. coefficients : by symbol. density : at which they hold, kg/m3. added_mass : or None.
+    """path : of the file. name : of the vehicle. coefficients : by symbol. density : at which they hold, kg/m3.
 
+    added_mass : None where the file has none.
     sources : where each number of the tables hydrodynamics and added_mass comes from, by key.
     """
 
     path: Path
+    name: str
     coefficients: dict[str, float]
     density: float | None
     added_mass: AddedMass | None
@@ -36,7 +39,7 @@ def read_base(name_or_path: str) -> Base:
             name_or_path, f"is no vehicle; shipped are {', '.join(shipped_vehicles())}, or give a .toml file"
         )
     document = read_toml(path, "a vehicle")
-    missing, faults = check(document, path)
+    missing, faults = check(Vehicle, document, path)
     if faults:
         raise InputError.of_all(path, faults)
     hydro: dict[str, Any] = document.get("hydrodynamics", {})
@@ -46,6 +49,7 @@ def read_base(name_or_path: str) -> Base:
     values = [added[key]["value"] for key in keys] if whole else []
     return Base(
         path,
+        str(document.get("name", path.stem)),
         {symbol: float(hydro[key]["value"]) for symbol, (key, _) in SYMBOLS.items() if key in hydro},
         float(hydro["reference_density"]["value"]) if "reference_density" in hydro else None,
         AddedMass(tuple(values[0]), tuple(values[1]), values[2], values[3]) if whole else None,

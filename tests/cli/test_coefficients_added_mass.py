@@ -98,7 +98,7 @@ def test_csv_on_stdout(run, mine):
 def test_failures_are_one_line_and_leave_nothing(run, mine, tmp_path):
     one_line_error(run("squid"), "shipped are")
     one_line_error(run(tmp_path / "none.toml"), "no such file")
-    one_line_error(run(mine, "-o", "a.txt"), "unknown output .txt; allowed: .toml .csv .json .parquet .png")
+    one_line_error(run(mine, "-o", "a.txt"), "unknown output .txt; allowed: .toml .json .csv .parquet .png")
     (tmp_path / "there.csv").write_text("old")
     one_line_error(run(mine, "-o", "there.csv"), "exists; --force replaces it")
     one_line_error(run(mine, "-o", mine, "--force"), "is an input")

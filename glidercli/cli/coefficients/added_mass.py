@@ -38,14 +38,15 @@ def added_mass(
     from glidercli.coefficients.added_mass import added_mass as estimated
     from glidercli.coefficients.added_mass import answer, terms_of
     from glidercli.coefficients.added_mass_text import text
+    from glidercli.coefficients.base import read_base
     from glidercli.coefficients.geometry import load_geometry
-    from glidercli.coefficients.keeping import TABLES, keep, write_csv
     from glidercli.coefficients.rest import rest
     from glidercli.errors import UsageError
     from glidercli.files import check_not_inputs, check_outputs
+    from glidercli.keeping import TABLES, keep, write_csv
     from glidercli.pictures import PICTURES
     from glidercli.provenance import provenance
-    from glidercli.vehicle.writing import revised, vehicle_file
+    from glidercli.vehicle.writing import revised
 
     outputs = output or []
     stdout = Path("-") in outputs
@@ -54,8 +55,8 @@ def added_mass(
     files = [path for path in outputs if path != Path("-")]
     check_outputs(files, (".toml", *TABLES, *PICTURES), force)
     shape, path = load_geometry(geometry)
-    base = None if vehicle is None else vehicle_file(vehicle)
-    inputs = [path] if base is None else [path, base]
+    base = None if vehicle is None else read_base(vehicle)
+    inputs = [path] if base is None else [path, base.path]
     check_not_inputs(files, inputs)
 
     found = estimated(shape)
@@ -68,7 +69,7 @@ def added_mass(
     made, lacking = "", list[str]()
     if toml := [item for item in files if item.suffix.lower() == ".toml"]:
         tables = found.numbers(not plain_strips, f"{shape.name} ({path.name}), estimated by glider coefficients")
-        made, lacking = revised(base, tables, name=toml[0].stem)
+        made, lacking = revised(base.path if base else None, tables, name=toml[0].stem)
     kept = answer(found, beside, left, made)
     keep(kept, *files, record=record, force=force)
     warn(found.notes(), quiet)

@@ -50,9 +50,9 @@ def cases(
     from glidercli.cli.printing import json_text, say, warn
     from glidercli.coefficients.case_table import RADII
     from glidercli.coefficients.case_table import cases as case_table
-    from glidercli.coefficients.keeping import TABLES, Kept, keep, plain, write_csv
     from glidercli.errors import UsageError
     from glidercli.files import check_not_inputs, check_outputs
+    from glidercli.keeping import TABLES, Kept, keep, plain, write_csv
     from glidercli.provenance import provenance
     from glidercli.vehicle import load_vehicle
 
@@ -67,7 +67,7 @@ def cases(
     check_not_inputs(files, inputs)
     hull = load_vehicle(vehicle).hull
     table = case_table(hull, speed=speed, radii=radius or RADII, **water)
-    lists = {name: plain(list(column)) for name, column in table.columns.items()}
+    lists = {name: plain(column) for name, column in table.columns.items()}
     rows = [dict(zip(lists, row, strict=True)) for row in zip(*lists.values(), strict=True)]
     document = {"cases": rows, "counts": table.counts(), "warnings": table.warnings}
     found = Kept(lists, document)

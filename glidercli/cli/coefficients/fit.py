@@ -54,12 +54,12 @@ def fit(
     """Coefficients of eq. (20) from forces, by least squares in the order of section 3.3, with standard errors."""
     from glidercli.cli.printing import finite, json_text, plain, say, warn
     from glidercli.coefficients.fit_figure import figure
-    from glidercli.coefficients.keeping import TABLES, Kept, keep
     from glidercli.coefficients.new_vehicle import new_vehicle
     from glidercli.coefficients.result import fit as fitted
     from glidercli.coefficients.telling import columns, document, text
     from glidercli.errors import UsageError
     from glidercli.files import check_not_inputs, check_outputs, readable_file
+    from glidercli.keeping import TABLES, Kept, keep
     from glidercli.pictures import PICTURES
     from glidercli.provenance import provenance
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from glidercli.coefficients.added_mass import MODEL, added_mass, terms_of
+from glidercli.coefficients.base import read_base
 from glidercli.coefficients.geometry import Geometry, HullShape, Surface, load_geometry
 from glidercli.coefficients.rest import rest
 from glidercli.coefficients.strips import Terms, _sections, end_factor, hull_strips
-from glidercli.vehicle import shipped_vehicles
 
 HULL = HullShape(length=1.99, diameter=0.22)
 
@@ -177,7 +177,7 @@ def test_hulls_that_are_no_ellipsoids():
 def test_the_seawing_of_table_3():
     """What hull, wings and fins would have to be for Table 3 (M_A, I_A, C_A); put together they give its terms back."""
     shape, _ = load_geometry("seawing")
-    printed = terms_of(shipped_vehicles()["seawing"])[1]
+    printed = terms_of(read_base("seawing"))[1]
     found = rest(printed, added_mass(shape).corrected["hull"], shape, 0.0)
     assert found.tail.faults  # the printed hull leaves 0.28 kg for the fins, which would have to be 9 m off
     fit = found.accounted

@@ -1,4 +1,4 @@
-"""How are tables of this room kept? Columns as .csv and .parquet, a document as .json, pictures, vehicle files."""
+"""How is a command's answer kept? Columns as .csv and .parquet, a document as .json, a picture, a vehicle file."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
+import numpy as np
+from numpy.typing import NDArray
+
 from glidercli.errors import OutputError
 from glidercli.files import atomic, metadata_path
 from glidercli.pictures import PICTURES, save
@@ -19,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["TABLES", "Kept", "keep", "plain", "write_csv"]
 
-TABLES = (".csv", ".json", ".parquet")
+TABLES = (".json", ".csv", ".parquet")
 
 
 class Kept(NamedTuple):
@@ -29,7 +32,7 @@ class Kept(NamedTuple):
     vehicle : text of a vehicle file, or "".
     """
 
-    columns: Mapping[str, Sequence[Any]]
+    columns: Mapping[str, Sequence[Any] | NDArray[Any]]
     document: Mapping[str, Any]
     draw: Callable[[], Figure] | None = None
     vehicle: str = ""
@@ -65,16 +68,19 @@ def write_csv(found: Kept, stream: TextIO) -> None:
     rows.writerows(zip(*map(plain, found.columns.values()), strict=True))
 
 
-def plain(column: Sequence[Any]) -> list[Any]:
+def plain(column: Sequence[Any] | NDArray[Any]) -> list[Any]:
     """A column as Python values, None for what is not finite."""
-    values = [value.item() if hasattr(value, "item") else value for value in column]
+    values = column.tolist() if isinstance(column, np.ndarray) else list(column)
     return [None if isinstance(value, float) and not math.isfinite(value) else value for value in values]
 
 
 def _comment(record: Mapping[str, Any]) -> str:
-    """Provenance at the end of a vehicle file."""
-    lines = json.dumps(record, indent=2, sort_keys=True, ensure_ascii=False).splitlines()
-    return "\n# Where this file comes from:\n" + "".join(f"# {line}\n" for line in lines)
+    """Provenance at the end of a vehicle file: the command, then a line for each file that it read."""
+    lines = [f"# Made by {record['program']}, {json.dumps(record['command'], ensure_ascii=False)}"]
+    lines += [
+        f"#   from {json.dumps(item['path'], ensure_ascii=False)}, sha256 {item['sha256']}" for item in record["inputs"]
+    ]
+    return "".join(f"\n{line}" for line in lines) + "\n"
 
 
 def _write_parquet(found: Kept, path: Path, record: Mapping[str, Any]) -> None:
