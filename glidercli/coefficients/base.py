@@ -8,8 +8,10 @@ from typing import Any, NamedTuple
 from glidercli.coefficients.fitting import SYMBOLS
 from glidercli.errors import InputError
 from glidercli.files import read_toml
-from glidercli.vehicle.load import check, shipped_vehicles
-from glidercli.vehicle.vehicle import AddedMass
+from glidercli.units import DEGREE
+from glidercli.vehicle.checking import check
+from glidercli.vehicle.load import shipped_vehicles
+from glidercli.vehicle.vehicle import AddedMass, Vehicle
 from glidercli.vehicle.writing import vehicle_file
 
 __all__ = ["Base", "read_base"]
@@ -18,7 +20,8 @@ __all__ = ["Base", "read_base"]
 class Base(NamedTuple):
     """path : of the file. coefficients : by symbol. density : at which they hold, kg/m3. added_mass : or None.
 
-    sources : where each number of the tables hydrodynamics and added_mass comes from, by key.
+    sources : where each number of the tables hydrodynamics and added_mass comes from, by key. name : of the vehicle, or
+    of its file. fitted_angle : rad, or None.
     """
 
     path: Path
@@ -26,6 +29,8 @@ class Base(NamedTuple):
     density: float | None
     added_mass: AddedMass | None
     sources: dict[str, str]
+    name: str
+    fitted_angle: float | None
 
 
 def read_base(name_or_path: str) -> Base:
@@ -36,7 +41,7 @@ def read_base(name_or_path: str) -> Base:
             name_or_path, f"is no vehicle; shipped are {', '.join(shipped_vehicles())}, or give a .toml file"
         )
     document = read_toml(path, "a vehicle")
-    missing, faults = check(document, path)
+    missing, faults = check(Vehicle, document, path)
     if faults:
         raise InputError.of_all(path, faults)
     hydro: dict[str, Any] = document.get("hydrodynamics", {})
@@ -50,4 +55,6 @@ def read_base(name_or_path: str) -> Base:
         float(hydro["reference_density"]["value"]) if "reference_density" in hydro else None,
         AddedMass(tuple(values[0]), tuple(values[1]), values[2], values[3]) if whole else None,
         {key: str(item.get("source", "")) for table in (hydro, added) for key, item in table.items()},
+        str(document.get("name", path.stem)),
+        float(hydro["fitted_angle"]["value"]) * DEGREE if "fitted_angle" in hydro else None,
     )
