@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from glidercli.coefficients.fitting import SYMBOLS
 from glidercli.errors import InputError
 from glidercli.files import read_toml
+from glidercli.units import DEGREE
 from glidercli.vehicle.checking import check
 from glidercli.vehicle.load import shipped_vehicles
 from glidercli.vehicle.vehicle import AddedMass, Vehicle
@@ -17,18 +18,19 @@ __all__ = ["Base", "read_base"]
 
 
 class Base(NamedTuple):
-    """path : of the file. name : of the vehicle. coefficients : by symbol. density : at which they hold, kg/m3.
+    """path : of the file. name : of the vehicle, or of its file. coefficients : by symbol.
 
-    added_mass : None where the file has none.
+    density : at which they hold, kg/m3. added_mass, fitted_angle (rad) : None where the file has none.
     sources : where each number of the tables hydrodynamics and added_mass comes from, by key.
     """
 
     path: Path
-    name: str
     coefficients: dict[str, float]
     density: float | None
     added_mass: AddedMass | None
     sources: dict[str, str]
+    name: str
+    fitted_angle: float | None
 
 
 def read_base(name_or_path: str) -> Base:
@@ -49,9 +51,10 @@ def read_base(name_or_path: str) -> Base:
     values = [added[key]["value"] for key in keys] if whole else []
     return Base(
         path,
-        str(document.get("name", path.stem)),
         {symbol: float(hydro[key]["value"]) for symbol, (key, _) in SYMBOLS.items() if key in hydro},
         float(hydro["reference_density"]["value"]) if "reference_density" in hydro else None,
         AddedMass(tuple(values[0]), tuple(values[1]), values[2], values[3]) if whole else None,
         {key: str(item.get("source", "")) for table in (hydro, added) for key, item in table.items()},
+        str(document.get("name", path.stem)),
+        float(hydro["fitted_angle"]["value"]) * DEGREE if "fitted_angle" in hydro else None,
     )

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import json
 import os
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +12,6 @@ import numpy as np
 import pandas as pd
 import pytest
 from conftest import Run
-
-sys.path.insert(0, str(Path(__file__).parent.parent / "coefficients"))
-
 from made_forces import FLOW, SIZE, forces_of
 
 from glidercli.coefficients.case_table import COLUMNS

@@ -5,7 +5,7 @@ from __future__ import annotations
 import typer
 
 from glidercli.cli import lists
-from glidercli.cli.coefficients import added_mass, cases, fit
+from glidercli.cli.coefficients import added_mass, cases, estimate, fit
 
 app = typer.Typer(
     help="Where a vehicle's numbers come from: added mass, the CFD cases, the fit, estimates.",
@@ -15,4 +15,5 @@ app = typer.Typer(
 app.command("added-mass", no_args_is_help=True)(added_mass.added_mass)
 app.command("cases")(cases.cases)
 app.command("fit", no_args_is_help=True)(fit.fit)
+app.command("estimate", no_args_is_help=True)(estimate.estimate)
 app.command("geometries")(lists.geometries)
