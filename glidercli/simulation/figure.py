@@ -157,14 +157,17 @@ def _track(axes: Axes, log: Log) -> None:
 def _fixes(axes: Axes, log: Log) -> None:
     """Where the GPS saw the vehicle, in m north and east of the log's origin."""
     _, (latitude, longitude) = log.together("latitude", "longitude")
-    axes.set_title(f"{len(latitude)} fixes" if len(latitude) else "no fix", loc="left")
+    if not len(latitude) or log.place is None:
+        axes.set_axis_off()
+        axes.set_title("no fix", loc="left")
+        return
+    north, east = track_of_geodetic(latitude, longitude, *log.place)
+    axes.plot(east, north, ".", color=COLOURS[1], markersize=3)
+    axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("east, m")
     axes.set_ylabel("north, m")
-    if len(latitude) and log.place is not None:
-        north, east = track_of_geodetic(latitude, longitude, *log.place)
-        axes.plot(east, north, ".", color=COLOURS[1], markersize=3)
-        axes.set_aspect("equal", adjustable="datalim")
-        axes.locator_params(axis="x", nbins=5)
+    axes.set_title(f"{len(latitude):,} fix{'es' if len(latitude) > 1 else ''}", loc="left")
+    axes.locator_params(axis="x", nbins=5)
 
 
 def _water(axes: Axes, log: Log) -> None:
@@ -187,7 +190,8 @@ def _water(axes: Axes, log: Log) -> None:
         axes.set_xlabel("speed through water, m/s")
         axes.set_title("speed by depth", loc="left")
     else:
-        axes.set_title("no instrument reads the water", loc="left")
+        axes.set_axis_off()
+        axes.set_title("water: not recorded", loc="left")
 
 
 def _by_depth(axes: Axes, log: Log, name: str, colour: str, label: str = "") -> None:

@@ -204,7 +204,7 @@ def simulate(
         metadata["parameters_changed"] = ", ".join(f"{name} = {value}" for name, value in changes.items())
     suite = suite_of(sensors, seed, every=every, ocean=ocean, place=wanted.place, casts=casts)
     if suite:
-        metadata |= suite.metadata()
+        metadata |= suite.metadata() | {"title": f"{metadata['title']}, as its instruments would record it"}
         _check_samples(wanted.duration if math.isfinite(wanted.duration) else least, suite.grid.step)
     flight, log, last = flown(
         wanted, ocean, p, craft, metadata, every=every, rtol=rtol, full=equations == "full", piece=piece,

@@ -24,7 +24,7 @@ class Lag:
     """A first-order lag tau dy/dt = x - y, in equilibrium at the first sample; goes on from call to call.
 
     time : tau, s; 0 for none. The input is taken as linear between its samples, for which the solution is exact:
-    y(t + h) = x(t + h) - s tau + (y(t) - x(t) + s tau) exp(-h / tau), with the input's slope s.
+    y(t + h) = y(t) + a (x(t) - y(t)) + (1 - a tau / h) (x(t + h) - x(t)), a = 1 - exp(-h / tau).
     """
 
     def __init__(self, time: float) -> None:
@@ -48,8 +48,8 @@ def follow(times: Array, values: Array, tau: float, state: Array, out: Array) ->
     for i in range(len(times)):
         h = times[i] - state[0]
         if h > 0.0:
-            drag = tau * (values[i] - state[1]) / h
-            state[2] = values[i] - drag + (state[2] - state[1] + drag) * math.exp(-h / tau)
+            a = -math.expm1(-h / tau)
+            state[2] += a * (state[1] - state[2]) + (1.0 - a * tau / h) * (values[i] - state[1])
         state[0], state[1] = times[i], values[i]
         out[i] = state[2]
 
