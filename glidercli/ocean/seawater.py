@@ -89,7 +89,7 @@ def salinity_of_density(density: ArrayLike, temperature: ArrayLike, pressure_dba
 
     rho, t, p = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (density, temperature, pressure_dbar)))
     fresh = gsw.rho(np.zeros_like(rho), conservative_temperature(np.zeros_like(rho), t, p), p)
-    near_fresh = np.abs(rho - fresh) <= _STATES_DIFFER
+    near_fresh = (rho >= fresh - _STATES_DIFFER) & (rho < fresh + 2.0)  # a first round may come out below zero
     salt = np.full_like(rho, 35.0)
     for _ in range(_ROUNDS):  # so many for all, that a value does not depend on its neighbours
         salt = np.asarray(gsw.SA_from_rho(rho, conservative_temperature(salt, t, p), p), dtype=float)
