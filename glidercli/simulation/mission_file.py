@@ -66,6 +66,8 @@ def fault(item: Any, top: Any = Mission) -> str:
         what = f"{key} is unknown; known here: {', '.join(_known(item['loc'][:-1], top))}"
     elif item["type"] == "value_error":
         what = " ".join(part for part in (key, str(item["ctx"]["error"])) if part)
+    elif item["type"] == "dataclass_type":
+        what = f"{key} = {item['input']!r}, a table is needed"
     elif item["type"] == "tuple_type":
         what = f"{key} is no list of tables; write [[{key}]] above each"
     elif item["type"].startswith("union_tag"):
