@@ -356,3 +356,43 @@ def test_long_periods_are_looked_at_every_second(tmp_path: Path, truth: Log) -> 
     one, other = (fly(tmp_path, aboard, every=every).log["pitch"] for aboard, every in ((slow, 30.0), (fine, 1.0)))
     rows = np.searchsorted(other.time_ns, one.time_ns)
     np.testing.assert_array_equal(one.values, other.values[rows])
+
+
+BAD = [
+    ("", ("is empty",)),
+    ("[instruments]\n", ("instruments is empty", ".gps")),
+    ("instruments = 3\n", ("instruments = 3", "table")),
+    ("[instruments.sonar]\n", ("instruments.sonar is unknown", "compass, pressure, ctd, gps")),
+    ('[instruments.compass]\nmodel = "tcm9"\nlag_s = -1\n', ("2 faults", "tcm9", "shipped: tcm3", "lag_s = -1")),
+    ("[instruments.compass]\nmodel = 3\n", ("compass.model = 3",)),
+    ("[instruments.compass]\ncolour = 1\n", ("compass.colour is unknown", "noise_tilt_deg")),
+    ("[instruments.compass]\nperiod_s = 0\n", ("compass.period_s = 0",)),
+    ("[instruments.compass]\nperiod_s = 0.0105\n", ("whole milliseconds",)),
+    ("[instruments.compass]\nperiod_s = 1.001\n", ("greatest common divisor", "10 ms")),
+    ("[instruments.compass]\noffset_s = -1\n", ("offset_s = -1",)),
+    ("[instruments.compass]\nnoise_heading_deg = nan\n", ("noise_heading_deg = nan",)),
+    ("[instruments.compass]\nnoise_tilt_deg = true\n", ("noise_tilt_deg = True",)),
+    ("[instruments.compass]\nmount_pitch_deg = 91\n", ("mount_pitch_deg = 91",)),
+    ('[instruments.pressure]\nnoise_dbar = "0.1"\n', ("noise_dbar = '0.1'",)),
+    ("[instruments.pressure]\nresolution_dbar = -0.1\n", ("resolution_dbar = -0.1",)),
+    ("[instruments.pressure]\nposition_m = [0, 1]\n", ("position_m", "missing")),
+    ("[instruments.pressure]\nposition_m = [0, 1, inf]\n", ("position_m.2 = inf",)),
+    ("[instruments.ctd]\ncell_share = 1.5\n", ("cell_share = 1.5",)),
+    ("[instruments.ctd]\nconductivity_noise_S_m = -1\n", ("conductivity_noise_S_m = -1",)),
+    ("[instruments.ctd]\ntemperature_lag_s = 1e9\n", ("temperature_lag_s = 1000000000.0",)),
+    ("[instruments.gps]\nfirst_fix_s = -1\n", ("first_fix_s = -1",)),
+    ("[instruments.gps]\nnoise_m = 1e9\n", ("noise_m",)),
+    ("seed = 1\n[instruments.gps]\n", ("seed is unknown",)),
+    ("name = 3 = 4", ("TOML",)),
+]
+
+
+@pytest.mark.parametrize(("text", "words"), BAD)
+def test_bad_settings_are_named(tmp_path: Path, text: str, words: tuple[str, ...]) -> None:
+    (tmp_path / "bad.toml").write_text(text)
+    with pytest.raises(InputError) as error:
+        simulate("sawtooth-transect", instruments=tmp_path / "bad.toml")
+    said = str(error.value)
+    assert said.startswith(str(tmp_path / "bad.toml"))
+    assert "\n" not in said
+    assert all(word in said for word in words), said
