@@ -158,9 +158,10 @@ def _span(seconds: float) -> str:
 def _summary(d: dict[str, Any]) -> str:
     """The flight for people, a line each."""
     rate = d["simulated_seconds_per_second"]
-    lines = [f"SIMULATED FROM A RECONSTRUCTION: {d['reconstruction']}"] if d["reconstruction"] else ["SIMULATED"]
+    seen = ", AS ITS INSTRUMENTS WOULD RECORD IT" if d["instruments"] else ""
+    remade = f" FROM A RECONSTRUCTION{seen}: {d['reconstruction']}" if d["reconstruction"] else seen
+    lines = [f"SIMULATED{remade}"]
     if d["instruments"]:
-        lines[0] += ", AS ITS INSTRUMENTS WOULD RECORD IT"
         told = [f"{kind} {aboard['settings']['model'] or ''}".rstrip() for kind, aboard in d["instruments"].items()]
         lines.append(f"{'instruments':<17}{', '.join(told)}; seed {d['seed']}; below is the flight as it was")
     energy = d["energy"]

@@ -185,7 +185,8 @@ def simulate(
     )  # fmt: skip
     check_not_inputs(outputs, wanted.files)
     least = sum(leg.duration for leg in wanted.legs if leg.ends_by_time_alone)
-    _check_samples(wanted.duration if math.isfinite(wanted.duration) else least, every)
+    length = wanted.duration if math.isfinite(wanted.duration) else least
+    _check_samples(length, every)
     if latitude is None:
         latitude = plan[0].latitude if plan else wanted.place[0] if wanted.place else None
     with _for_mission(plan, asked, "ctd"):
@@ -205,7 +206,7 @@ def simulate(
     suite = suite_of(sensors, seed, every=every, ocean=ocean, place=wanted.place, casts=casts)
     if suite:
         metadata |= suite.metadata() | {"title": f"{metadata['title']}, as its instruments would record it"}
-        _check_samples(wanted.duration if math.isfinite(wanted.duration) else least, suite.grid.step)
+        _check_samples(length, suite.grid.step, "instruments' times")
     flight, log, last = flown(
         wanted, ocean, p, craft, metadata, every=every, rtol=rtol, full=equations == "full", piece=piece,
         progress=progress, file=plan[1] if plan else None, suite=suite,
@@ -263,12 +264,12 @@ def _check_numbers(duration: float | None, start_depth: float | None, every: flo
         raise InputError("start depth", f"{start_depth} m is not allowed; 0 to {DEEPEST:g} are")
 
 
-def _check_samples(length: float, every: float) -> None:
+def _check_samples(length: float, every: float, what: str = "every") -> None:
     from glidercli.simulation.flight import MOST_SAMPLES
 
     if math.isfinite(length) and length / every > MOST_SAMPLES:
         raise InputError(
-            "duration, every",
+            f"duration, {what}",
             f"{length:g} s by {every:g} s is {length / every:.3g} samples, allowed {MOST_SAMPLES:.0e}",
         )
 

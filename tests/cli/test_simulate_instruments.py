@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ import netCDF4
 import numpy as np
 import pandas as pd
 import pytest
-from conftest import Run, one_line_error
+from conftest import ROOT, Run, one_line_error
 
 PLAN = """name = "plan"
 description = "a yo"
@@ -71,8 +72,8 @@ def test_every_output_is_marked_and_holds_the_same(glider: Run, plan: Path, tmp_
     assert len(deep) > 300
     assert deep[["conductivity_S_m", "temperature_degC", "salinity", "density_kg_m3"]].notna().all().all()
     assert table["conductivity_S_m"][table["elapsed_s"] % 2 == 1].isna().all()
-    pd.testing.assert_frame_equal(pd.read_parquet(tmp_path / "i.parquet").drop(columns="time_utc"),
-                                  table.drop(columns=["time_utc", "origin"]))  # fmt: skip
+    parquet = pd.read_parquet(tmp_path / "i.parquet").drop(columns="time_utc")
+    pd.testing.assert_frame_equal(parquet, table.drop(columns=["time_utc", "origin"]), check_dtype=False)
     with netCDF4.Dataset(tmp_path / "i.nc") as file:
         assert file.source == "simulated"
         assert "measured" not in str(file)
@@ -171,3 +172,48 @@ def test_bad_options_are_named(glider: Run, plan: Path, tmp_path: Path) -> None:
     one_line_error(glider("simulate", plan), "2 faults", "instruments.gps.noise_m", "seed = -1")
     plan.write_text(PLAN.format(top="") + "[instruments.ctd]\n")
     one_line_error(glider("simulate", plan), "plan.toml: instruments.ctd", "no temperature")
+
+
+def test_a_reconstruction_stays_one(glider: Run, plan: Path, tmp_path: Path) -> None:
+    (tmp_path / "c.toml").write_text("[instruments.compass]\nnoise_tilt_deg = 1\n[instruments.pressure]\n")
+    done = glider("simulate", "south-china-sea-2011", "--instruments", "c.toml", "-o", "f.nc")
+    assert done.stdout.startswith("SIMULATED FROM A RECONSTRUCTION, AS ITS INSTRUMENTS WOULD RECORD IT: ")
+    assert glider("info", "f.nc").stdout.startswith("SIMULATED FROM A RECONSTRUCTION")
+
+
+def test_a_sensor_that_never_reads_leaves_no_channel(glider: Run, plan: Path, tmp_path: Path) -> None:
+    (tmp_path / "late.toml").write_text(
+        "[instruments.compass]\noffset_s = 5000\n[instruments.gps]\nfirst_fix_s = 3600\n"
+    )
+    files = [f"f.{suffix}" for suffix in ("csv", "nc", "parquet", "mcap", "rrd")]
+    done = glider(
+        "simulate", plan, "--instruments", "late.toml", "--every", "5", *(x for file in files for x in ("-o", file))
+    )
+    assert done.returncode == 0, done.stderr
+    table = pd.read_csv(tmp_path / "f.csv")
+    assert table["phase"].notna().all()
+    assert "heading_deg" not in table or table["heading_deg"].isna().all()
+    for name in files[:-1]:
+        assert glider("info", name).returncode == 0
+    assert glider("simulate", plan, "--instruments", "late.toml", "-o", "f.png").returncode == 0
+
+
+def test_the_page_prints_what_comes_out(glider: Run, glider_json: Callable[..., Any], tmp_path: Path) -> None:
+    page = (ROOT / "docs/instruments.md").read_text()
+    models = re.findall(r'^(\[instruments\.\w+\])\nmodel = ("[\w-]+")', page, re.MULTILINE)
+    assert len(models) == 4
+    (tmp_path / "aboard.toml").write_text("".join(f"{table}\nmodel = {name}\n" for table, name in models))
+    (tmp_path / "tests").symlink_to(ROOT / "tests")
+    section = page[page.index("## Does it read") :]
+    commands = [line.split()[1:] for line in section.splitlines() if line.startswith("    glider ")]
+    for command in commands[:2]:
+        assert glider(*command).returncode == 0
+    errors = glider_json(*commands[2])["channels"]
+    rows = re.findall(r"^\| (\w+), \w+ \| ([\d,]+) \| (\S+) \| \S+ \| (\S+) \|", section, re.MULTILINE)
+    assert len(rows) == 5
+    for name, n, bias, std in rows:
+        found = next(value for key, value in errors.items() if key.startswith(name))
+        assert found["n"] == int(n.replace(",", ""))
+        for said, number in ((bias, -found["bias"]), (std, found["std"])):
+            half = 0.5 * 10.0 ** -len(said.split(".")[1])  # of the last digit printed
+            assert float(said) == pytest.approx(number, abs=1.01 * half), name
