@@ -17,6 +17,7 @@ from glidercli.units import DEGREE
 __all__ = ["CompassSensor"]
 
 _CIRCLE = 2.0 * math.pi
+_ROUNDING = 1e-9  # rad; multiples of a resolution that come so close to a full circle are north
 
 
 class CompassSensor(Sensor):
@@ -61,7 +62,8 @@ class CompassSensor(Sensor):
             angles |= {name: unwrapped(angles[name]) for name, unwrapped in self._unwrapped.items()}
         read = {name: self.chains[name](truth.times, angles[name], taken) for name in self.channels}
         read["heading"] = np.mod(read["heading"], _CIRCLE)
-        read["heading"][read["heading"] >= _CIRCLE] = 0.0  # of what lies a rounding below zero
+        full = _CIRCLE - (_ROUNDING if self._settings.resolution_heading_deg else 0.0)
+        read["heading"][read["heading"] >= full] = 0.0
         outside = np.abs(read["roll"]) > math.pi
         read["roll"][outside] = wrapped(read["roll"][outside])
         return {name: (taken, values) for name, values in read.items()}

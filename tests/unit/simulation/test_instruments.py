@@ -163,7 +163,6 @@ def test_pieces_make_no_difference(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         "ctd": {"model": "slocum-gpctd", "offset_s": 0.25, "position_m": [0.0, 0.0, -0.3]},
         "gps": {"model": "gps15"},
     }
-    whole = fly(tmp_path, aboard).log
     pieces: list[Log] = []
     monkeypatch.setattr(flight, "_PIECE", length)
     monkeypatch.setattr(flight, "STRETCH", 30.0)
@@ -206,6 +205,14 @@ def test_a_slow_compass_passes_north_the_short_way(tmp_path: Path) -> None:
     error = (read - true + math.pi) % (2.0 * math.pi) - math.pi
     rate = np.abs(truth["r"].values).max() / math.cos(math.radians(60.0))
     assert np.abs(error).max() < 4.0 * rate  # lag times rate; the long way round would be rad
+
+
+def test_a_rounded_heading_is_less_than_a_full_circle(tmp_path: Path) -> None:
+    north = {"leg": [{**LEGS[0], "mass_rotation_deg": 0.0}]}
+    compass = {"noise_heading_deg": 0.2, "resolution_heading_deg": 0.1, "period_s": 0.1}
+    read = np.degrees(fly(tmp_path, {"compass": compass}, mission=north).log["heading"].values)
+    assert (read == 0.0).sum() > 100  # north, where 360.0 and 0.0 are the same
+    assert read[read > 180.0].max() == pytest.approx(359.9, abs=1e-9)  # the greatest that a TCM3 prints
 
 
 def test_the_port_of_a_pitched_vehicle_is_elsewhere(tmp_path: Path, truth: Log) -> None:
