@@ -134,6 +134,23 @@ def quaternion_from_euler_arrays(roll: Array, pitch: Array, heading: Array) -> A
     )
 
 
+def quaternion_product_arrays(a_wxyz: Array, b_wxyz: Array) -> Array:
+    """The quaternions a b, shape (..., 4): the attitude R_a R_b, b turned in the frame of a."""
+    import numpy as np
+
+    w, x, y, z = np.moveaxis(np.asarray(a_wxyz, dtype=float), -1, 0)
+    s, i, j, k = np.moveaxis(np.asarray(b_wxyz, dtype=float), -1, 0)
+    return np.stack(
+        [
+            w * s - x * i - y * j - z * k,
+            w * i + x * s + y * k - z * j,
+            w * j - x * k + y * s + z * i,
+            w * k + x * j - y * i + z * s,
+        ],
+        axis=-1,
+    )
+
+
 def euler_from_quaternion_arrays(q_wxyz: Array) -> tuple[Array, Array, Array]:
     """Roll, pitch in [-pi/2, pi/2] and heading in [0, 2 pi), rad, each (n,), from unit quaternions of shape (n, 4).
 

@@ -58,6 +58,17 @@ def simulate(
     latitude: Annotated[float | None, typer.Option(help="Latitude, deg: gravity, and pressure of a cast.")] = None,
     every: Annotated[float, typer.Option(help="Time between samples, s.")] = 1.0,
     rtol: Annotated[float, typer.Option(help="Relative tolerance of the integrator.")] = 1e-7,
+    instruments: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE|none",
+            help="Log what the sensors of a TOML file would read [default: the mission's]; none: the flight as it is.",
+            show_default=False,
+        ),
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option(help="Of the instruments' noise [default: the mission's, else 0].", show_default=False)
+    ] = None,
     vehicle: Annotated[
         str | None,
         typer.Option(
@@ -110,13 +121,15 @@ def simulate(
             every=every,
             rtol=rtol,
             equations=equations.value,
+            instruments=instruments,
+            seed=seed,
             outputs=outputs,
             inputs=files,
             piece=sink.piece,
             progress=bar.tell,
         )
         origin = "simulated, from a reconstruction" if "reconstruction" in flown.log.metadata else "simulated"
-        log = flown.log.with_metadata(provenance=provenance_json(inputs=flown.inputs, origin=origin))
+        log = flown.log.with_metadata(provenance=provenance_json(inputs=flown.inputs, seed=flown.seed, origin=origin))
         bar.stage("writing")
         sink.finish(log)
     warn(list(dict.fromkeys([*logs.warnings, *water.warnings, *flow.warnings, *flown.warnings])), quiet)
@@ -145,7 +158,12 @@ def _span(seconds: float) -> str:
 def _summary(d: dict[str, Any]) -> str:
     """The flight for people, a line each."""
     rate = d["simulated_seconds_per_second"]
-    lines = [f"SIMULATED FROM A RECONSTRUCTION: {d['reconstruction']}"] if d["reconstruction"] else ["SIMULATED"]
+    seen = ", AS ITS INSTRUMENTS WOULD RECORD IT" if d["instruments"] else ""
+    remade = f" FROM A RECONSTRUCTION{seen}: {d['reconstruction']}" if d["reconstruction"] else seen
+    lines = [f"SIMULATED{remade}"]
+    if d["instruments"]:
+        told = [f"{kind} {aboard['settings']['model'] or ''}".rstrip() for kind, aboard in d["instruments"].items()]
+        lines.append(f"{'instruments':<17}{', '.join(told)}; seed {d['seed']}; below is the flight as it was")
     energy = d["energy"]
     kj = {name: energy[f"{name}_j"] / 1e3 for name in ("total", "pump", "slide", "rotation", "hotel", "per_dive")}
     lines += [

@@ -218,8 +218,19 @@ def _run(
         outcomes(measured, log, track),
         track,
         located(pairs, both, max_gap),
-        notes=(*_other_zeros(measured, simulated, errors), *_no_depth(without_depth)),
+        notes=(
+            *_not_measured(measured, measured_name),
+            *_other_zeros(measured, simulated, errors),
+            *_no_depth(without_depth),
+        ),
     )
+
+
+def _not_measured(measured: Log, name: str) -> Iterator[str]:
+    """What the word measured means where the first log is no recording."""
+    if measured.origin in ("simulated", "reconstruction"):
+        what = "is simulated" if measured.origin == "simulated" else "is a reconstruction"
+        yield f"{name} {what}, not measured; where the word measured stands it means this log"
 
 
 def _other_zeros(measured: Log, simulated: Log, channels: Iterable[str]) -> Iterator[str]:

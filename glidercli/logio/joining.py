@@ -70,7 +70,7 @@ def joined(parts: list[Part], own: bool = False) -> tuple[Log, list[FileReport]]
     left: deque[list[Part]] = deque()
     while ordered:
         dive = [_after(part, reached) for part in _without_yielded(ordered.popleft())]
-        for name, end_ns in [(n, int(c.time_ns[-1])) for part in dive for n, c in part.log.channels.items()]:
+        for name, end_ns in [(n, int(c.time_ns[-1])) for part in dive for n, c in part.log.channels.items() if len(c)]:
             reached[name] = max(end_ns, reached.get(name, end_ns))
         left.append(dive)
     if not own:

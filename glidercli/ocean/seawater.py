@@ -16,18 +16,24 @@ from glidercli.errors import InputError
 __all__ = [
     "absolute_salinity",
     "checked_latitude",
+    "conductivity",
     "conservative_temperature",
     "density",
     "depth_from_pressure",
     "gravity",
+    "practical_of_absolute",
     "practical_salinity",
     "pressure_from_depth",
+    "salinity_of_density",
     "t90_from_t68",
     "temperature_from_conservative",
     "temperature_from_potential",
 ]
 
 Array = NDArray[np.float64]
+
+_STATES_DIFFER = 0.1  # kg/m3
+_ROUNDS = 7  # each leaves at most 2 % of the error, of 35 g/kg at first
 
 
 def practical_salinity(conductivity: ArrayLike, temperature: ArrayLike, pressure_dbar: ArrayLike) -> Array:
@@ -51,6 +57,44 @@ def absolute_salinity(salinity: ArrayLike, pressure_dbar: ArrayLike, longitude: 
         return reference
     here = np.asarray(gsw.SA_from_SP(salinity, pressure_dbar, longitude, latitude), dtype=float)
     return np.where(np.isfinite(here), here, reference)
+
+
+def practical_of_absolute(
+    absolute_salinity: ArrayLike, pressure_dbar: ArrayLike, longitude: float | None, latitude: float
+) -> Array:
+    """SP from SA in g/kg, p and place: the inverse of ``absolute_salinity``, with or without a longitude."""
+    import gsw
+
+    reference = np.asarray(gsw.SP_from_SR(absolute_salinity), dtype=float)
+    if longitude is None:
+        return reference
+    here = np.asarray(gsw.SP_from_SA(absolute_salinity, pressure_dbar, longitude, latitude), dtype=float)
+    return np.where(np.isfinite(here), here, reference)
+
+
+def conductivity(salinity: ArrayLike, temperature: ArrayLike, pressure_dbar: ArrayLike) -> Array:
+    """Conductivity, S/m, from SP, t and p by PSS-78: the inverse of ``practical_salinity``."""
+    import gsw
+
+    return 0.1 * np.asarray(gsw.C_from_SP(salinity, temperature, pressure_dbar), dtype=float)
+
+
+def salinity_of_density(density: ArrayLike, temperature: ArrayLike, pressure_dbar: ArrayLike) -> Array:
+    """SA, g/kg, of water with a density in situ, kg/m3, at t and p: the inverse of ``density``.
+
+    NaN where no salinity gives this density; 0 where fresh water is heavier by no more than 0.1 kg/m3, what equations
+    of state differ by. CT, which depends on SA, is improved in turn with it.
+    """
+    import gsw
+
+    rho, t, p = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (density, temperature, pressure_dbar)))
+    fresh = gsw.rho(np.zeros_like(rho), conservative_temperature(np.zeros_like(rho), t, p), p)
+    near_fresh = (rho >= fresh - _STATES_DIFFER) & (rho < fresh + 2.0)  # a first round may come out below zero
+    salt = np.full_like(rho, 35.0)
+    for _ in range(_ROUNDS):  # so many for all, that a value does not depend on its neighbours
+        salt = np.asarray(gsw.SA_from_rho(rho, conservative_temperature(salt, t, p), p), dtype=float)
+        salt = np.where(np.isnan(salt) & near_fresh, 0.0, salt)
+    return salt
 
 
 def conservative_temperature(absolute_salinity: ArrayLike, temperature: ArrayLike, pressure_dbar: ArrayLike) -> Array:

@@ -1,4 +1,7 @@
-"""What does a flight look like? One figure: depth, attitude and controls by time, the track, and the water by depth."""
+"""What does a flight look like? One figure: depth, attitude and controls by time, the track, and the water by depth.
+
+What the instruments of a flight do not record is left out; the track is then that of the fixes.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,7 @@ from glidercli.channels import CHANNELS
 from glidercli.errors import OutputError
 from glidercli.log import Log
 from glidercli.pictures import COLOURS, WIDTH
+from glidercli.places import track_of_geodetic
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,16 +42,17 @@ def draw_flight(log: Log) -> Figure:
     """The figure of a simulated flight; OutputError for a log of less than two samples."""
     from matplotlib.figure import Figure
 
-    if len(log["depth"]) < 2:
+    if len(log["phase"]) < 2:
         raise OutputError("figure", "not drawn: the flight has less than two samples")
     figure = Figure(figsize=(WIDTH, _HEIGHT), layout="constrained")
     figure.suptitle("\n".join(textwrap.wrap(f"{log.kind}: {log.metadata.get('title', 'flight')}", 100)), fontsize=8.5)
     halves: Any = figure.subfigures(1, 2, width_ratios=[1.45, 1.0])
     left, right = halves
-    rows = left.subplots(len(_ROWS), 1, sharex=True)
+    shown = [row for row in _ROWS if all(name in log and len(log[name]) for name, _, _ in row[2])]
+    rows = left.subplots(len(shown), 1, sharex=True)
     duration = (log.end_ns - log.start_ns) / 1e9
     _, unit, word = next(span for span in _SPANS if duration <= span[0])
-    for axes, (label, least, lines) in zip(rows, _ROWS, strict=True):
+    for axes, (label, least, lines) in zip(rows, shown, strict=True):
         for (name, legend, factor), colour in zip(lines, COLOURS[1:], strict=False):
             seconds, values = _series(log, name)
             _line(axes, seconds / unit, _broken(name, values * factor), least, color=colour, label=legend)
@@ -55,10 +60,13 @@ def draw_flight(log: Log) -> Figure:
         _widen(axes, least)
         if len(lines) > 1:
             _legend_above(axes)
-    rows[0].invert_yaxis()
+    deep = shown[0][2][0][0] == "depth"
+    if deep:
+        rows[0].invert_yaxis()
     rows[-1].set_xlabel(f"time, {word}")
     left.align_ylabels()
-    _mark(rows[0], log, unit)
+    if deep:
+        _mark(rows[0], log, unit)
     track, water = right.subplots(2, 1)
     _track(track, log)
     _water(water, log)
@@ -129,6 +137,9 @@ def _mark(axes: Axes, log: Log, unit: float) -> None:
 
 def _track(axes: Axes, log: Log) -> None:
     """The track over ground from above, in m or km."""
+    if "north" not in log:
+        _fixes(axes, log)
+        return
     (_, north), (_, east) = _series(log, "north"), _series(log, "east")
     far = max(np.ptp(north), np.ptp(east)) > 5000.0
     scale, unit = (1e-3, "km") if far else (1.0, "m")
@@ -143,23 +154,47 @@ def _track(axes: Axes, log: Log) -> None:
     _legend_above(axes)
 
 
+def _fixes(axes: Axes, log: Log) -> None:
+    """Where the GPS saw the vehicle, in m north and east of the log's origin."""
+    _, (latitude, longitude) = log.together("latitude", "longitude")
+    if not len(latitude) or log.place is None:
+        axes.set_axis_off()
+        axes.set_title("no fix", loc="left")
+        return
+    north, east = track_of_geodetic(latitude, longitude, *log.place)
+    axes.plot(east, north, ".", color=COLOURS[1], markersize=3)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_xlabel("east, m")
+    axes.set_ylabel("north, m")
+    axes.set_title(f"{len(latitude):,} fix{'es' if len(latitude) > 1 else ''}", loc="left")
+    axes.locator_params(axis="x", nbins=5)
+
+
 def _water(axes: Axes, log: Log) -> None:
-    """Current and density that the vehicle met, by depth; its speed where the water is all the same."""
-    depth = log["depth"].values
+    """Current or density that the vehicle met, by depth; its speed where the water is all the same."""
     axes.invert_yaxis()
     axes.locator_params(axis="x", nbins=5)
     axes.set_ylabel("depth, m")
     if "current_east" in log:
         for name, colour in (("current_east", COLOURS[0]), ("current_north", COLOURS[1])):
-            axes.plot(log[name].values, depth, color=colour, linewidth=0.9, label=name[8:])
+            _by_depth(axes, log, name, colour, name[8:])
         axes.set_xlabel("current, m/s")
         axes.set_title("current met", loc="left")
         _legend_above(axes)
-    elif "pressure" in log:
-        axes.plot(log["density"].values, depth, color=COLOURS[2], linewidth=0.9)
+    elif "pressure" in log and "density" in log:
+        _by_depth(axes, log, "density", COLOURS[2])
         axes.set_xlabel("density, kg/m$^3$")
         axes.set_title("water met", loc="left")
-    else:
-        axes.plot(log["speed_through_water"].values, depth, color=COLOURS[2], linewidth=0.7)
+    elif "speed_through_water" in log:
+        _by_depth(axes, log, "speed_through_water", COLOURS[2])
         axes.set_xlabel("speed through water, m/s")
         axes.set_title("speed by depth", loc="left")
+    else:
+        axes.set_axis_off()
+        axes.set_title("water: not recorded", loc="left")
+
+
+def _by_depth(axes: Axes, log: Log, name: str, colour: str, label: str = "") -> None:
+    """A channel by depth, where both have a sample."""
+    _, (values, depth) = log.together(name, "depth")
+    axes.plot(values, depth, color=colour, linewidth=0.9, label=label)

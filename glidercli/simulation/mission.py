@@ -20,6 +20,8 @@ until_depth_m = 800.0
 
 [actuators]                     limits and rates in place of the vehicle's
 [steering]                      period, dead bands and gains of the controllers
+[instruments.compass]           what records the flight, also .pressure, .ctd, .gps: docs/instruments.md
+seed = 0                        of the instruments' noise
 """
 
 from __future__ import annotations
@@ -31,6 +33,8 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import ConfigDict, Discriminator, Field, Tag, model_validator
 from pydantic.dataclasses import dataclass
 
+from glidercli.simulation.instruments.settings import MOST_SEED, Instruments
+from glidercli.simulation.ranges import number, positive
 from glidercli.years import FIRST_YEAR, LAST_YEAR
 
 __all__ = [
@@ -44,20 +48,10 @@ MOST_LEGS = 100_000
 _YEARS = (FIRST_YEAR, LAST_YEAR - 5)  # of the start: the longest flight then ends before the last time allowed
 
 
-def _number(least: float, most: float) -> Any:
-    """The range of a number, both ends allowed."""
-    return Field(ge=least, le=most, allow_inf_nan=False, strict=True)
-
-
-def _positive(most: float) -> Any:
-    """A range that begins above zero."""
-    return Field(gt=0.0, le=most, allow_inf_nan=False, strict=True)
-
-
-Depth = Annotated[float, _number(0.0, 12000.0)]
-Seconds = Annotated[float, _positive(LONGEST)]
-Heading = Annotated[float, _number(-360.0, 360.0)]
-Buoyancy = Annotated[float, _number(-100.0, 100.0)]
+Depth = Annotated[float, number(0.0, 12000.0)]
+Seconds = Annotated[float, positive(LONGEST)]
+Heading = Annotated[float, number(-360.0, 360.0)]
+Buoyancy = Annotated[float, number(-100.0, 100.0)]
 
 
 @dataclass(frozen=True, config=_CONFIG, kw_only=True)
@@ -67,10 +61,10 @@ class Ends:
     name: str | None = None
     """In the events; default: the kind."""
     until_depth_m: Depth | None = None
-    until_altitude_m: Annotated[float, _number(0.0, 12000.0)] | None = None
+    until_altitude_m: Annotated[float, number(0.0, 12000.0)] | None = None
     """Over bottom_m."""
     duration_s: Seconds | None = None
-    turns: Annotated[float, _positive(1e6)] | None = None
+    turns: Annotated[float, positive(1e6)] | None = None
     """Of heading, either way."""
 
     def _ends(self) -> list[str]:
@@ -93,13 +87,13 @@ class Ends:
 class Targets(Ends):
     """What the steering holds on a leg: pitch or a mass position; one way to turn; a net buoyancy."""
 
-    pitch_deg: Annotated[float, _number(-80.0, 80.0)] | None = None
-    mass_position_m: Annotated[float, _number(-5.0, 5.0)] | None = None
+    pitch_deg: Annotated[float, number(-80.0, 80.0)] | None = None
+    mass_position_m: Annotated[float, number(-5.0, 5.0)] | None = None
     heading_deg: Heading | None = None
-    turn_rate_deg_s: Annotated[float, _number(-30.0, 30.0)] | None = None
-    turning_radius_m: Annotated[float, _number(-1e5, 1e5)] | None = None
+    turn_rate_deg_s: Annotated[float, number(-30.0, 30.0)] | None = None
+    turning_radius_m: Annotated[float, number(-1e5, 1e5)] | None = None
     """Starboard positive."""
-    mass_rotation_deg: Annotated[float, _number(-180.0, 180.0)] | None = None
+    mass_rotation_deg: Annotated[float, number(-180.0, 180.0)] | None = None
     rotation_on_s: Seconds | None = None
     """The rotation is held so long, returns to zero for rotation_off_s, and so on: the trial's intermittent return."""
     rotation_off_s: Seconds | None = None
@@ -252,33 +246,33 @@ MissionLeg = Annotated[
 class ActuatorChanges:
     """Limits and rates in place of the vehicle's own."""
 
-    mass_position_min_m: Annotated[float, _number(-5.0, 5.0)] | None = None
-    mass_position_max_m: Annotated[float, _number(-5.0, 5.0)] | None = None
-    mass_position_rate_mm_s: Annotated[float, _number(0.01, 1000.0)] | None = None
-    mass_rotation_min_deg: Annotated[float, _number(-180.0, 180.0)] | None = None
-    mass_rotation_max_deg: Annotated[float, _number(-180.0, 180.0)] | None = None
-    mass_rotation_rate_deg_s: Annotated[float, _number(0.01, 360.0)] | None = None
+    mass_position_min_m: Annotated[float, number(-5.0, 5.0)] | None = None
+    mass_position_max_m: Annotated[float, number(-5.0, 5.0)] | None = None
+    mass_position_rate_mm_s: Annotated[float, number(0.01, 1000.0)] | None = None
+    mass_rotation_min_deg: Annotated[float, number(-180.0, 180.0)] | None = None
+    mass_rotation_max_deg: Annotated[float, number(-180.0, 180.0)] | None = None
+    mass_rotation_rate_deg_s: Annotated[float, number(0.01, 360.0)] | None = None
     net_buoyancy_min_kg: Buoyancy | None = None
     net_buoyancy_max_kg: Buoyancy | None = None
-    pump_rate_cm3_s: Annotated[float, _number(0.01, 1e5)] | None = None
-    pump_slowing_per_dbar: Annotated[float, _number(0.0, 0.01)] | None = None
-    return_rate_cm3_s: Annotated[float, _number(0.01, 1e5)] | None = None
+    pump_rate_cm3_s: Annotated[float, number(0.01, 1e5)] | None = None
+    pump_slowing_per_dbar: Annotated[float, number(0.0, 0.01)] | None = None
+    return_rate_cm3_s: Annotated[float, number(0.01, 1e5)] | None = None
 
 
 @dataclass(frozen=True, config=_CONFIG, kw_only=True)
 class Steering:
     """The controllers: how often they look, how much they leave alone, how hard they pull (simulation/autopilot.py)."""
 
-    period_s: Annotated[float, _number(0.1, 3600.0)] = 6.0
+    period_s: Annotated[float, number(0.1, 3600.0)] = 6.0
     """The trial's sampling."""
-    pitch_band_deg: Annotated[float, _number(0.0, 30.0)] = 0.5
-    pitch_gain: Annotated[float, _positive(1.0)] = 0.1
+    pitch_band_deg: Annotated[float, number(0.0, 30.0)] = 0.5
+    pitch_gain: Annotated[float, positive(1.0)] = 0.1
     """Share of the mass position's error, by static balance, that a sample takes back."""
-    heading_band_deg: Annotated[float, _number(0.0, 45.0)] = 0.5
+    heading_band_deg: Annotated[float, number(0.0, 45.0)] = 0.5
     """A change of rotation below it is left alone."""
-    heading_gain: Annotated[float, _positive(100.0)] = 1.0
+    heading_gain: Annotated[float, positive(100.0)] = 1.0
     """deg of rotation for a deg of heading."""
-    turn_gain_s: Annotated[float, _positive(1e4)] = 20.0
+    turn_gain_s: Annotated[float, positive(1e4)] = 20.0
     """deg of rotation for a deg/s of turn rate, a sample."""
 
 
@@ -295,14 +289,17 @@ class Mission:
     ctd: str | None = None
     adcp: str | None = None
     start_time: datetime.datetime | None = None
-    latitude: Annotated[float, _number(-90.0, 90.0)] | None = None
-    longitude: Annotated[float, _number(-180.0, 360.0)] | None = None
+    latitude: Annotated[float, number(-90.0, 90.0)] | None = None
+    longitude: Annotated[float, number(-180.0, 360.0)] | None = None
     heading_deg: Heading = 0.0
     start_depth_m: Depth = 0.0
-    neutral_density_kg_m3: Annotated[float, _number(900.0, 1200.0)] | None = None
-    bottom_m: Annotated[float, _number(1.0, 12000.0)] | None = None
+    neutral_density_kg_m3: Annotated[float, number(900.0, 1200.0)] | None = None
+    bottom_m: Annotated[float, number(1.0, 12000.0)] | None = None
     actuators: ActuatorChanges = ActuatorChanges()
     steering: Steering = Steering()
+    instruments: Instruments | None = None
+    seed: Annotated[int, Field(ge=0, le=MOST_SEED, strict=True)] = 0
+    """Of the instruments."""
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -344,8 +341,8 @@ def _count(legs: tuple[Any, ...]) -> int:
 
 def places(legs: tuple[Any, ...], within: str = "") -> Iterator[tuple[str, Any]]:
     """Every leg of a mission once, with its place in the file."""
-    for number, leg in enumerate(legs, start=1):
-        place = f"{within}leg {number}"
+    for i, leg in enumerate(legs, start=1):
+        place = f"{within}leg {i}"
         if isinstance(leg, Repeat):
             yield from places(leg.leg, f"{place}, ")
         else:

@@ -11,6 +11,7 @@ from pydantic import TypeAdapter, ValidationError
 from glidercli import shipped
 from glidercli.errors import InputError
 from glidercli.files import read_toml
+from glidercli.simulation.instruments.settings import Compass, Ctd, Gps, Instruments, Pressure
 from glidercli.simulation.mission import (
     KINDS,
     ActuatorChanges,
@@ -26,11 +27,12 @@ from glidercli.simulation.mission import (
     Wait,
 )
 
-__all__ = ["load_mission"]
+__all__ = ["fault", "load_mission"]
 
 _TABLES = {
     "actuators": ActuatorChanges, "steering": Steering, "dive": Dive, "climb": Climb, "spiral": Spiral,
     "hold-heading": HoldHeading, "drift": Drift, "wait": Wait, "controls": ControlsLeg, "repeat": Repeat,
+    "instruments": Instruments, "compass": Compass, "pressure": Pressure, "ctd": Ctd, "gps": Gps,
 }  # fmt: skip
 """What the tables of a file become, by name or kind."""
 
@@ -52,18 +54,20 @@ def load_mission(name_or_path: str | Path) -> tuple[Mission, Path]:
     try:
         return TypeAdapter(Mission).validate_python(given), path
     except ValidationError as error:
-        raise InputError.of_all(path, [_fault(item) for item in error.errors(include_url=False)]) from None
+        raise InputError.of_all(path, [fault(item) for item in error.errors(include_url=False)]) from None
 
 
-def _fault(item: Any) -> str:
-    """One fault as text: the leg, the key, its value, what is allowed."""
+def fault(item: Any, top: Any = Mission) -> str:
+    """One fault as text: the leg, the key, its value, what is allowed. top : what the whole file is."""
     where, key = _place(item["loc"])
     if item["type"] == "missing":
         what = f"{key} is missing"
     elif item["type"] in ("unexpected_keyword_argument", "extra_forbidden"):
-        what = f"{key} is unknown; known here: {', '.join(_known(item['loc'][:-1]))}"
+        what = f"{key} is unknown; known here: {', '.join(_known(item['loc'][:-1], top))}"
     elif item["type"] == "value_error":
         what = " ".join(part for part in (key, str(item["ctx"]["error"])) if part)
+    elif item["type"] == "dataclass_type":
+        what = f"{key} = {item['input']!r}, a table is needed"
     elif item["type"] == "tuple_type":
         what = f"{key} is no list of tables; write [[{key}]] above each"
     elif item["type"].startswith("union_tag"):
@@ -74,9 +78,9 @@ def _fault(item: Any) -> str:
     return f"{where}: {what}" if where else what
 
 
-def _known(location: tuple[Any, ...]) -> list[str]:
+def _known(location: tuple[Any, ...], top: Any) -> list[str]:
     """The keys that may stand at a place in the file."""
-    cls: Any = Mission
+    cls = top
     for part in location:
         if isinstance(part, str):
             cls = _TABLES.get(part, cls)

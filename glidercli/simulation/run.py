@@ -15,9 +15,10 @@ from glidercli.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
     from glidercli.log import Log
-    from glidercli.ocean.ocean import Ocean
     from glidercli.simulation.energy import Costs
     from glidercli.simulation.flight import Excursion, Flight
+    from glidercli.simulation.instruments.settings import Instruments
+    from glidercli.simulation.instruments.suite import Suite
     from glidercli.simulation.mission import Mission
     from glidercli.simulation.task import Task
 
@@ -31,13 +32,15 @@ DEEPEST = 12000.0  # m; the deepest trench has 10,935
 class Simulation:
     """A simulated flight.
 
-    log : every sample; of a flight that was given away in pieces, the last piece, with all events. distance : m, over
+    log : every sample, or with instruments what they read; of a flight that was given away in pieces, the last piece,
+    with all events. last : the flight's last sample, whatever instruments are aboard. distance : m, over
     ground along the horizontal track. net_buoyancy_in_water : kg, sinking positive, at the end: what was pumped and
     what the hull displaces there. excursions : roll beyond 90 deg, the flow's angles beyond the fitted one. wall : s of
     integration alone. inputs : files that it was made from.
     """
 
     log: Log
+    last: Log
     duration: float
     max_depth: float
     distance: float
@@ -47,10 +50,16 @@ class Simulation:
     wall: float
     warnings: tuple[str, ...]
     inputs: tuple[Path, ...]
+    suite: Suite | None = None
+
+    @property
+    def seed(self) -> int | None:
+        """Of the instruments; None without any."""
+        return self.suite.seed if self.suite else None
 
     def document(self) -> dict[str, Any]:
-        """The contract's JSON."""
-        table = self.log.table()
+        """The contract's JSON. All but ``instruments`` is of the flight, not of what instruments read."""
+        table = self.last.table(0)
         final = {name: table[name].iloc[-1] for name in table.columns if name != "time_utc"}
         start = next(event.time_ns for event in self.log.events if event.name == "start")
         return {
@@ -66,6 +75,8 @@ class Simulation:
             "energy_j": self.costs.total,
             "energy": self.costs.document(),
             "net_buoyancy_in_water_kg": self.net_buoyancy_in_water,
+            "seed": self.seed,
+            "instruments": self.suite.document() if self.suite else None,
             "warnings": list(self.warnings),
             "wall_s": self.wall,
             "simulated_seconds_per_second": self.duration / self.wall if self.wall > 0.0 else None,
@@ -91,6 +102,8 @@ def simulate(
     every: float = 1.0,
     rtol: float = 1e-7,
     equations: str = "full",
+    instruments: Instruments | str | Path | None = None,
+    seed: int | None = None,
     outputs: Collection[Path] = (),
     inputs: Iterable[Path] = (),
     piece: Callable[[Log], None] | None = None,
@@ -114,6 +127,9 @@ def simulate(
     duration, every : s. start_depth : m. latitude : deg; sets gravity, 9.81 m/s2 without.
     rtol : relative tolerance of the integrator.
     equations : "full", or "paper": eq. (50) without the shear's own term, and the movable mass taken as unmoving.
+    instruments : the sensors whose readings the log holds (settings.py), or a file of them; "none" for the flight as it
+        is. Default: the mission's.
+    seed : of their random numbers; default: the mission's, else 0.
     outputs : files that the caller will write; checked before the flight. inputs : files that trim and logs came from.
     piece : gets the log in pieces while it is flown, so that a long flight needs no more memory than a short one.
     progress : is told the seconds flown and the seconds to fly, the latter infinite if the legs decide.
@@ -132,6 +148,8 @@ def simulate(
     from glidercli.model.parameters import changed, parameters
     from glidercli.ocean.gathering import gathered_casts, gathered_currents, sources
     from glidercli.ocean.ocean import Ocean
+    from glidercli.simulation.flying import flown
+    from glidercli.simulation.instruments.aboard import instruments_of, suite_of
     from glidercli.simulation.mission_file import load_mission
     from glidercli.simulation.task import task
     from glidercli.vehicle import load_vehicle
@@ -157,6 +175,8 @@ def simulate(
     water, flow = sources(ctd), sources(adcp)
     water_files = [item for item in (*water, *flow) if isinstance(item, Path)]
     vehicle_files = [] if isinstance(vehicle, Vehicle) or not Path(vehicle).suffix else [Path(vehicle)]
+    sensors = instruments_of(instruments, plan)
+    given_files += sensors.files
     check_not_inputs(outputs, [*given_files, *vehicle_files, *water_files, *([plan[1]] if plan else [])])
     held = {"mass_position": mass_position, "mass_rotation": mass_rotation, "net_buoyancy": net_buoyancy}
     wanted = task(
@@ -165,7 +185,8 @@ def simulate(
     )  # fmt: skip
     check_not_inputs(outputs, wanted.files)
     least = sum(leg.duration for leg in wanted.legs if leg.ends_by_time_alone)
-    _check_samples(wanted.duration if math.isfinite(wanted.duration) else least, every)
+    length = wanted.duration if math.isfinite(wanted.duration) else least
+    _check_samples(length, every)
     if latitude is None:
         latitude = plan[0].latitude if plan else wanted.place[0] if wanted.place else None
     with _for_mission(plan, asked, "ctd"):
@@ -182,9 +203,13 @@ def simulate(
     metadata = _metadata(plan[0] if plan else None, craft, equations, how, remade)
     if changes:
         metadata["parameters_changed"] = ", ".join(f"{name} = {value}" for name, value in changes.items())
-    flight, log = _flown(
+    suite = suite_of(sensors, seed, every=every, ocean=ocean, place=wanted.place, casts=casts)
+    if suite:
+        metadata |= suite.metadata() | {"title": f"{metadata['title']}, as its instruments would record it"}
+        _check_samples(length, suite.grid.step, "instruments' times")
+    flight, log, last = flown(
         wanted, ocean, p, craft, metadata, every=every, rtol=rtol, full=equations == "full", piece=piece,
-        progress=progress, file=plan[1] if plan else None,
+        progress=progress, file=plan[1] if plan else None, suite=suite,
     )  # fmt: skip
     left = ocean.beyond(*flight.depths, float(flight.times[-1]))
     warnings = [*ocean.warnings, *wanted.warnings, *_warnings(flight, craft, wanted), *left]
@@ -206,6 +231,8 @@ def simulate(
         warnings.append("the water has no temperature: thermal expansion of the hull is left out")
     return Simulation(
         log=log,
+        last=last,
+        suite=suite,
         duration=float(flight.times[-1]),
         max_depth=flight.depths[1],
         distance=flight.distance,
@@ -216,43 +243,6 @@ def simulate(
         warnings=tuple(warnings),
         inputs=tuple(dict.fromkeys([*given_files, *vehicle_files, *wanted.files[:1], *water_files, *wanted.files[1:]])),
     )
-
-
-def _flown(
-    wanted: Task, ocean: Ocean, p: Any, craft: Vehicle, metadata: dict[str, str], *, every: float, rtol: float,
-    full: bool, piece: Callable[[Log], None] | None, progress: Any, file: Path | None,
-) -> tuple[Flight, Log]:  # fmt: skip
-    """The flight and its log, given away in pieces if somebody takes them."""
-    from glidercli.simulation.flight import fly
-    from glidercli.simulation.to_log import to_log, with_events
-
-    def logged(times: Any, samples: Any) -> Log:
-        return to_log(
-            times, samples, start_ns=wanted.start_ns, place=wanted.place, stratified=ocean.stratified,
-            has_temperature=ocean.has_temperature, has_current=ocean.moving, metadata=metadata,
-        )  # fmt: skip
-
-    try:
-        flight = fly(
-            wanted.legs,
-            ocean.sea,
-            p,
-            duration=wanted.duration,
-            start=wanted.start,
-            controls=wanted.controls,
-            drives=wanted.drives,
-            bottom=wanted.bottom,
-            floats=wanted.floats,
-            every=every,
-            rtol=rtol,
-            full=full,
-            fitted_angle=craft.hydrodynamics.fitted_angle,
-            give=None if piece is None else lambda times, samples: piece(logged(times, samples)),
-            progress=progress,
-        )
-    except InputError as error:
-        raise InputError(file, str(error)) if file else error from None
-    return flight, with_events(logged(flight.times, flight.samples), flight, wanted.start_ns)
 
 
 @contextlib.contextmanager
@@ -274,12 +264,12 @@ def _check_numbers(duration: float | None, start_depth: float | None, every: flo
         raise InputError("start depth", f"{start_depth} m is not allowed; 0 to {DEEPEST:g} are")
 
 
-def _check_samples(length: float, every: float) -> None:
+def _check_samples(length: float, every: float, what: str = "every") -> None:
     from glidercli.simulation.flight import MOST_SAMPLES
 
     if math.isfinite(length) and length / every > MOST_SAMPLES:
         raise InputError(
-            "duration, every",
+            f"duration, {what}",
             f"{length:g} s by {every:g} s is {length / every:.3g} samples, allowed {MOST_SAMPLES:.0e}",
         )
 

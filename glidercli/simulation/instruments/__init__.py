@@ -1,0 +1,1 @@
+"""What would the sensors aboard have recorded of a simulated flight? Settings, errors, and one file a sensor."""
