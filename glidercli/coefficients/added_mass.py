@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from glidercli.coefficients.rest import Rest
     from glidercli.vehicle.writing import Number
 
-__all__ = ["MODEL", "Estimate", "Row", "added_mass", "answer", "terms_of"]
+__all__ = ["MODEL", "Estimate", "Row", "added_mass", "answer", "hull_volume", "terms_of"]
 
 _PROFILE = 0.685
 """Area of a profile over chord times thickness: NACA four-digit sections."""
@@ -65,12 +65,12 @@ class Estimate:
         return sum(parts.values(), Terms())
 
     def numbers(self, corrected: bool, source: str) -> dict[str, dict[str, Number]]:
-        """Tables of a vehicle file: its hull's dimensions and its added mass."""
+        """Tables of a vehicle file: its hull's dimensions and its added mass. source : the geometry."""
         from glidercli.vehicle.writing import Number
 
         t = self.total(corrected)
         hull = self.geometry.hull
-        how = f"{source}, {'corrected strips' if corrected else 'strips'}"
+        how = f"estimated from {source} by {'corrected strips' if corrected else 'strips'}"
         return {
             "hull": {"length": Number(hull.length_overall, source), "diameter": Number(hull.thickest, source)},
             "added_mass": {
@@ -136,7 +136,7 @@ class Estimate:
 def added_mass(geometry: Geometry) -> Estimate:
     """Added mass of a geometry in its water, about its centre of buoyancy, by strips and by corrected strips."""
     shape = geometry.hull
-    volumes = {"hull": _hull_volume(shape), **{name: _surface_volume(geometry, name) for name in geometry.surface}}
+    volumes = {"hull": hull_volume(shape), **{name: _surface_volume(geometry, name) for name in geometry.surface}}
     volume = sum(item[0] for item in volumes.values())
     centre = round(sum(item[0] * item[1] for item in volumes.values()) / volume, 12)  # less is rounding
     origin = centre if geometry.centre_of_buoyancy is None else geometry.centre_of_buoyancy
@@ -195,7 +195,7 @@ def _exact(hull: HullShape, bare: Terms, volume: tuple[float, float], origin: fl
     )  # fmt: skip
 
 
-def _hull_volume(hull: HullShape) -> tuple[float, float]:
+def hull_volume(hull: HullShape) -> tuple[float, float]:
     """Volume, m3, and its centre along the hull, m."""
     strips = hull_strips(hull, 0.0, 1.0)
     return strips.sway, strips.yaw_from_sway / strips.sway

@@ -19,23 +19,22 @@ import dataclasses
 import math
 from typing import Any, NamedTuple
 
-from glidercli.coefficients.added_mass import _hull_volume, added_mass
+from glidercli.coefficients.added_mass import added_mass, hull_volume
 from glidercli.coefficients.body import crosswise
 from glidercli.coefficients.bounds import Bounds, exactly
 from glidercli.coefficients.friction import REYNOLDS, friction, hull_form, profile_form, wetted_area
 from glidercli.coefficients.geometry import Geometry, Surface
 from glidercli.coefficients.lifting import SHIFT, Lifting, lifting
 from glidercli.coefficients.munk import munk_slopes
+from glidercli.coefficients.reynolds import PAPER_VISCOSITY
 from glidercli.coefficients.spheroid import spheroid
 from glidercli.errors import InputError
 from glidercli.vehicle.vehicle import AddedMass
 
-__all__ = ["COEFFICIENTS", "SPEED", "VISCOSITY", "Coefficient", "Estimated", "Row", "estimate"]
+__all__ = ["COEFFICIENTS", "SPEED", "Coefficient", "Estimated", "Row", "estimate"]
 
 SPEED = 0.257
 """m/s: of the paper's CFD cases, section 3.2."""
-VISCOSITY = 1.184e-6
-"""m2/s, kinematic: the paper's Reynolds number 4.32e5 at 0.257 m/s over 1.99 m."""
 FITTED = math.radians(12.0)
 """rad: range of the CFD cases, Table 2."""
 
@@ -99,9 +98,9 @@ class Coefficient:
 class Estimated:
     """Estimated coefficients of a geometry.
 
-    speed : m/s, at which friction and damping hold. viscosity : kinematic, m2/s. angle : up to which lines are fitted,
-    rad. origin : centre of buoyancy along the hull, m. munk : the model's own moments over V^2 and angle, in pitch and
-    yaw, kg/rad. reynolds : of each part. warnings : what a user must know.
+    speed : m/s, at which friction and damping hold. viscosity : of the water, Pa s. angle : up to which lines are
+    fitted, rad. origin : centre of buoyancy along the hull, m. munk : the model's own moments over V^2 and angle, in
+    pitch and yaw, kg/rad. reynolds : of each part. warnings : what a user must know.
     """
 
     geometry: Geometry
@@ -121,7 +120,7 @@ class Estimated:
             "geometry": self.geometry.name,
             "description": self.geometry.description,
             "speed_m_s": self.speed,
-            "viscosity_m2_s": self.viscosity,
+            "viscosity_Pa_s": self.viscosity,
             "fitted_angle_deg": math.degrees(self.angle),
             "reference_density_kg_m3": self.geometry.density,
             "centre_of_buoyancy_m": self.origin,
@@ -143,13 +142,13 @@ class Estimated:
 def estimate(
     geometry: Geometry,
     speed: float = SPEED,
-    viscosity: float = VISCOSITY,
+    viscosity: float = PAPER_VISCOSITY,
     angle: float = FITTED,
     added: AddedMass | None = None,
 ) -> Estimated:
     """Estimate the coefficients of eq. (20) from a shape.
 
-    speed : m/s, at which they hold. viscosity : kinematic, m2/s. angle : up to which they are fitted, rad.
+    speed : m/s, at which they hold. viscosity : of the water, Pa s. angle : up to which they are fitted, rad.
     added : added mass of the vehicle that they are for; default: the geometry's own, corrected strips.
 
     Raises
@@ -158,7 +157,7 @@ def estimate(
         A speed, viscosity or angle that no estimate can be made for.
     """
     for name, value, least, most, unit in (
-        ("speed", speed, 1e-3, 20.0, "m/s"), ("viscosity", viscosity, 1e-7, 1e-4, "m2/s"),
+        ("speed", speed, 1e-3, 20.0, "m/s"), ("viscosity", viscosity, 1e-4, 0.1, "Pa s"),
         ("angle", angle, 1e-9, math.radians(30.0), "rad"),
     ):  # fmt: skip
         if not least <= value <= most:
@@ -168,9 +167,10 @@ def estimate(
     water = added_mass(geometry)
     own = water.total()
     munk = (own.heave - own.surge, own.surge - own.sway) if added is None else munk_slopes(added)
-    parts = {name: _surface(item, geometry, water.origin, speed, viscosity) for name, item in geometry.surface.items()}
+    kinematic = viscosity / geometry.density
+    parts = {name: _surface(item, geometry, water.origin, speed, kinematic) for name, item in geometry.surface.items()}
     found: dict[str, dict[str, Bounds]] = {row.symbol: {} for row in COEFFICIENTS}
-    _add(found, "hull", _hull(geometry, water.origin, speed, viscosity, angle))
+    _add(found, "hull", _hull(geometry, water.origin, speed, kinematic, angle))
     for name, (_, terms) in parts.items():
         _add(found, name, terms)
     if geometry.drag_area:
@@ -180,8 +180,8 @@ def estimate(
         if abs(of_model - of_hull) > 1e-9 * abs(of_hull):
             found[symbol][MUNK] = exactly(of_hull - of_model)
     reynolds = {
-        "hull": speed * geometry.hull.length_overall / viscosity,
-        **{name: speed * item.chord / viscosity for name, (item, _) in parts.items()},
+        "hull": speed * geometry.hull.length_overall / kinematic,
+        **{name: speed * item.chord / kinematic for name, (item, _) in parts.items()},
     }
     return Estimated(
         geometry, speed, viscosity, angle, water.origin, munk, reynolds,
@@ -197,18 +197,18 @@ def _add(found: dict[str, dict[str, Bounds]], part: str, terms: dict[str, Bounds
 
 def _hull_munk(geometry: Geometry) -> float:
     """The bare hull's own Munk moment in potential flow over V^2 and angle, kg/rad."""
-    volume, _ = _hull_volume(geometry.hull)
+    volume, _ = hull_volume(geometry.hull)
     length = geometry.hull.length_overall
     k = spheroid(length, (6.0 * volume / (math.pi * length)) ** 0.5)
     return (k.k2 - k.k1) * geometry.density * volume
 
 
-def _hull(geometry: Geometry, origin: float, speed: float, viscosity: float, angle: float) -> dict[str, Bounds]:
+def _hull(geometry: Geometry, origin: float, speed: float, kinematic: float, angle: float) -> dict[str, Bounds]:
     """What the hull gives, friction and forces across the flow; without its Munk moment."""
     hull, half = geometry.hull, geometry.density / 2.0
-    skin = friction(speed * hull.length_overall / viscosity)
+    skin = friction(speed * hull.length_overall / kinematic)
     drag = skin.times(half * wetted_area(hull) * hull_form(hull.thickest, hull.length_overall))
-    across = crosswise(hull, _hull_volume(hull)[0], origin, angle)
+    across = crosswise(hull, hull_volume(hull)[0], origin, angle)
     # lift and side force stand across the flow, the friction along the axis has a share in them
     lift = across.normal.times(half) + drag.times(-1.0)
     moment, damping = across.moment.times(half), across.damping.times(-half / speed)
@@ -219,12 +219,12 @@ def _hull(geometry: Geometry, origin: float, speed: float, viscosity: float, ang
 
 
 def _surface(
-    surface: Surface, geometry: Geometry, origin: float, speed: float, viscosity: float
+    surface: Surface, geometry: Geometry, origin: float, speed: float, kinematic: float
 ) -> tuple[Lifting, dict[str, Bounds]]:
     """A surface as a lifting one, and what it gives to the coefficients."""
     half = geometry.density / 2.0
     item = lifting(surface, geometry.hull)
-    reynolds = speed * item.chord / viscosity
+    reynolds = speed * item.chord / kinematic
     drag = friction(reynolds).times(half * 2.0 * item.area * profile_form(surface.thickness))
     lift = item.lift.times(half)
     moment = lift.at(item.centre - origin, SHIFT * item.chord)

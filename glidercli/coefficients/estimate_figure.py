@@ -26,6 +26,8 @@ def figure(found: Estimated, base: Base | None) -> Figure:
 
     from glidercli.coefficients.estimate_output import of_base
 
+    if base is not None and not base.coefficients:
+        base = None
     drawn, left = [], []
     for one in found.coefficients.values():
         total = one.total

@@ -66,10 +66,10 @@ def rows(found: Estimated, base: Base | None) -> list[dict[str, Any]]:
     return table
 
 
-def vehicle_text(found: Estimated, base: Base, name: str) -> tuple[str, list[str]]:
+def vehicle_text(found: Estimated, base: Base | None, name: str) -> tuple[str, list[str]]:
     """The text of the base's file with the estimates in place, and what it still lacks to be a whole vehicle.
 
-    name : of the new vehicle, if the base is a shipped one.
+    base : None begins a new file. name : of the new vehicle, if it is new or the base a shipped one.
     """
     source = f"estimated from {found.geometry.name} by handbook formulas"
     at = f"at {found.speed:g} m/s"
@@ -82,7 +82,7 @@ def vehicle_text(found: Estimated, base: Base, name: str) -> tuple[str, list[str
     }  # fmt: skip
     numbers["reference_density"] = Number(found.geometry.density, f"{source}: density of the estimate")
     numbers["fitted_angle"] = Number(found.angle, f"{source}: range that lines were fitted over")
-    return revised(base.path, {"hydrodynamics": numbers}, name=name)
+    return revised(base.path if base else None, {"hydrodynamics": numbers}, name=name, changed=f"coefficients {source}")
 
 
 def _note(found: Estimated, symbol: str) -> str:

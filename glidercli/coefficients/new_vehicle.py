@@ -47,4 +47,5 @@ def new_vehicle(result: Result, base: Base, name: str) -> tuple[str, list[str]]:
         if (added := base.added_mass) is not None:
             keys = ("mass", "inertia", "yaw_from_sway", "pitch_from_heave")
             tables["added_mass"] = {key: moved(key, getattr(added, key)) for key in keys}
-    return revised(base.path, tables, name=name)
+    changed = f"{', '.join(result.fit.values())} fitted to {table}"
+    return revised(base.path, tables, name=name, changed=changed)

@@ -111,7 +111,7 @@ class Overview:
         provenance = {"provenance"}
         return {
             "kind": self.log.kind,
-            "platform": self.log.metadata.get("platform"),
+            "platform": self.log.metadata.get("platform") or self.log.metadata.get("vehicle"),
             "start": iso(self.log.start_ns),
             "end": iso(self.log.end_ns),
             "duration_s": (self.log.end_ns - self.log.start_ns) * 1e-9,

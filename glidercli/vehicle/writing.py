@@ -35,12 +35,15 @@ def vehicle_file(name_or_path: str | Path) -> Path:
     return shipped_vehicles().get(str(name_or_path), Path(name_or_path))
 
 
-def revised(base: Path | None, tables: Mapping[str, Mapping[str, Number]], *, name: str) -> tuple[str, list[str]]:
+def revised(
+    base: Path | None, tables: Mapping[str, Mapping[str, Number]], *, name: str, changed: str
+) -> tuple[str, list[str]]:
     """The text of a vehicle file with numbers replaced or added, and the names of what it still lacks to be whole.
 
     base : a vehicle file; tables and numbers may be missing in it. Its comments stay. None begins a new file.
     tables : numbers by table and key, as {"added_mass": {"mass": Number(...)}}; their units are the vehicle's.
-    name : of the new vehicle, if it is new or the base a shipped one; a file of the user's keeps its own.
+    name, changed : of the new vehicle, if it is new or the base a shipped one, and what its description then says was
+    changed; a file of the user's keeps its own.
 
     Raises
     ------
@@ -55,6 +58,8 @@ def revised(base: Path | None, tables: Mapping[str, Mapping[str, Number]], *, na
         document = tomlkit.parse(base.read_text(encoding="utf-8"))
     if base is None or base in shipped_vehicles().values():
         document["name"] = name
+        if "description" in document:
+            document["description"] = f"{document['description']}; {changed}"
     for table, numbers in tables.items():
         if not isinstance(document.setdefault(table, tomlkit.table()), dict):
             raise InputError(base or name, f"{table} = {document[table]!r} is no table; write [{table}]")

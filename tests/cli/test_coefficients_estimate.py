@@ -71,7 +71,9 @@ def test_outputs(glider: Run, tmp_path: Path) -> None:
     assert [Path(item["path"]).name for item in record["inputs"]] == ["seawing-estimated.toml", "seawing.toml"]
     assert parquet.read_table(tmp_path / "est.parquet").column("symbol").to_pylist() == SYMBOLS
     text = (tmp_path / "est.toml").read_text(encoding="utf-8")
-    assert text.count("estimated from seawing-estimated by handbook formulas") == len(SYMBOLS) + 2
+    assert (
+        text.count("estimated from seawing-estimated by handbook formulas") == len(SYMBOLS) + 3
+    )  # density, angle, description
     assert "worked example" in text  # the base's comments stay
     again = glider(*ESTIMATE, "seawing-estimated", "--vehicle", "seawing", "-o", "est.json")
     one_line_error(again, "est.json", "--force")
@@ -128,7 +130,7 @@ def test_what_is_refused(glider: Run, tmp_path: Path, options: list[str], words:
 
 
 def test_wrong_usage(glider: Run) -> None:
-    one_line_error(glider(*ESTIMATE, "seawing-estimated", "-o", "new.toml"), "--vehicle", code=2)
+    one_line_error(glider(*ESTIMATE, "seawing-estimated", "--json", "-o", "-"), "stdout", code=2)
     one_line_error(glider(*ESTIMATE, "no-such"), "no-such", "shipped are", "seawing-estimated")
 
 
@@ -179,3 +181,9 @@ def test_a_name_that_looks_like_a_formula(glider: Run, tmp_path: Path) -> None:
     (tmp_path / "mine.toml").write_text(SHAPE.replace('"mine"', '"$mine_{ 100 %"'), encoding="utf-8")
     done = glider(*ESTIMATE, "mine.toml", "-o", "est.png", "--vehicle", "seawing", "-o", "new.toml")
     assert done.returncode == 0, done.stderr
+
+
+def test_a_vehicle_from_nothing_says_what_it_lacks(glider: Run) -> None:
+    done = glider(*ESTIMATE, "seawing-estimated", "-o", "new.toml")
+    assert done.returncode == 0
+    assert "new.toml is no whole vehicle yet; it lacks description, reference, hull, mass" in done.stderr

@@ -40,7 +40,8 @@ SEAWING = {
 
 def at_test(configuration: str) -> Estimated:
     """At the model test's speed; slopes at the origin, as Roddy gives them."""
-    return estimate(suboff(configuration), SPEED, SPEED * LENGTH / REYNOLDS, math.radians(0.01))
+    shape = suboff(configuration)
+    return estimate(shape, SPEED, shape.density * SPEED * LENGTH / REYNOLDS, math.radians(0.01))
 
 
 def slopes(configuration: str) -> dict[str, Bounds]:

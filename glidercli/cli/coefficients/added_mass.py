@@ -68,8 +68,9 @@ def added_mass(
     record = provenance(inputs=inputs, origin="estimated")
     made, lacking = "", list[str]()
     if toml := [item for item in files if item.suffix.lower() == ".toml"]:
-        tables = found.numbers(not plain_strips, f"{shape.name} ({path.name}), estimated by glider coefficients")
-        made, lacking = revised(base.path if base else None, tables, name=toml[0].stem)
+        tables = found.numbers(not plain_strips, f"{shape.name} ({path.name})")
+        changed = f"hull and added mass of {shape.name}"
+        made, lacking = revised(base.path if base else None, tables, name=toml[0].stem, changed=changed)
     kept = answer(found, beside, left, made)
     keep(kept, *files, record=record, force=force)
     warn(found.notes(), quiet)

@@ -32,7 +32,7 @@ def estimate(
         ),
     ] = None,
     speed: Annotated[float, typer.Option(help="Speed at which friction and damping are to hold, m/s.")] = 0.257,
-    viscosity: Annotated[float, typer.Option(help="Kinematic viscosity of the water, m2/s.")] = 1.184e-6,
+    viscosity: Annotated[float, typer.Option(help="Of the water, Pa s.")] = 1.2124e-3,
     angle: Annotated[
         float | None,
         typer.Option(
@@ -73,10 +73,8 @@ def estimate(
         raise UsageError("-o - and --json both want stdout; leave one out")
     check_outputs(files, (".toml", *TABLES, *PICTURES), force)
     new = [path for path in files if path.suffix.lower() == ".toml"]
-    if new and vehicle is None:
-        raise UsageError(f"-o {new[0]}: a vehicle file is made from another one; name it with --vehicle")
     for option, value, least, most, unit in (
-        ("--speed", speed, 1e-3, 20.0, "m/s"), ("--viscosity", viscosity, 1e-7, 1e-4, "m2/s"),
+        ("--speed", speed, 1e-3, 20.0, "m/s"), ("--viscosity", viscosity, 1e-4, 0.1, "Pa s"),
         ("--angle", 12.0 if angle is None else angle, 0.1, 30.0, "deg"),
     ):  # fmt: skip
         if not least <= value <= most:
@@ -101,7 +99,7 @@ def estimate(
             warnings.append(f"{base.path}: no whole added_mass; K_M and K_MY hold with the geometry's own")
     found = estimate(shape, speed, viscosity, fitted, None if base is None else base.added_mass)
     record = provenance(inputs=inputs, origin="estimated")
-    made, lacking = vehicle_text(found, base, new[0].stem) if new and base is not None else ("", [])
+    made, lacking = vehicle_text(found, base, new[0].stem) if new else ("", [])
     kept = answer(found, base, made)
     keep(kept, *files, record=record, force=force)
     warn(warnings + found.warnings, quiet)
@@ -133,7 +131,7 @@ def _text(found: Estimated, base: Base | None) -> list[str]:
         f"ESTIMATED from {found.geometry.name} by handbook formulas, no CFD, nothing measured; at {found.speed:g} m/s, "
         f"up to {math.degrees(found.angle):g} deg, in water of {found.geometry.density:g} kg/m3."
     )
-    over = "" if base is None else f"{plain(base.name)[:9]:>10}  ratio"
+    over = f"{plain(base.name)[:9]:>10}  ratio" if base is not None and base.coefficients else ""
     lines += ["", f"{'':8}{'unit':10}{'estimate':>9}  {'interval':>19}{over}"]
     for one in found.coefficients.values():
         total = one.total
