@@ -127,4 +127,4 @@ def _text(table: CaseTable, vehicle: str) -> str:
              "inlet_speed_outer_m_s")  # fmt: skip
     shown = dict.fromkeys(zip(*(column[name][turning].tolist() for name in names), strict=True))
     lines += [f"{r:>8g}   {w:>10.5f}   {a:>21.4f}   {b:>6.4f}   {c:>10.4f}" for r, w, a, b, c in shown]
-    return "\n".join([*lines, "", "-o cases.csv keeps all columns"])
+    return "\n".join(lines)
