@@ -217,7 +217,7 @@ def test_a_vehicle_that_is_still_being_made(glider: Run, tmp_path: Path, forces:
     (tmp_path / "mine.toml").write_text('name = "mine"\ndescription = "begun"\nreference = "none"\n')
     done = glider("coefficients", "fit", forces.name, "--vehicle", "mine.toml", "-o", "next.toml")
     assert done.returncode == 0, done.stderr
-    assert "next.toml is not a whole vehicle yet; missing: hull, mass" in done.stderr
+    assert "next.toml is no whole vehicle yet; it lacks hull, mass" in done.stderr
     assert 'name = "mine"' in (tmp_path / "next.toml").read_text()
 
 

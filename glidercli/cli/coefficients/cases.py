@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,7 +10,7 @@ import typer
 from glidercli.cli.options import Debug, Force, Json, Quiet, output_option
 
 if TYPE_CHECKING:
-    from glidercli.coefficients.case_table import CaseTable
+    pass
 
 
 def cases(
@@ -47,38 +46,27 @@ def cases(
     debug: Debug = False,
 ) -> None:
     """The CFD cases that the fit needs: Table 2 of the paper, with velocities, rates and the flow domain."""
-    from glidercli.cli.printing import json_text, say, warn
+    from glidercli.cli.answers import give, wanted
     from glidercli.coefficients.case_table import RADII
     from glidercli.coefficients.case_table import cases as case_table
-    from glidercli.errors import UsageError
-    from glidercli.files import check_not_inputs, check_outputs
-    from glidercli.keeping import TABLES, Kept, keep, plain, write_csv
-    from glidercli.provenance import provenance
+    from glidercli.coefficients.case_text import text
+    from glidercli.files import check_not_inputs
+    from glidercli.keeping import TABLES, Kept, plain
     from glidercli.vehicle import load_vehicle
 
-    outputs = output or []
-    stdout = Path("-") in outputs
-    if json and stdout:
-        raise UsageError("-o - and --json both want stdout; leave one out")
+    to = wanted(output, json, TABLES, force)
     water = _water(density, viscosity, temperature, salinity)
-    files = [path for path in outputs if path != Path("-")]
     inputs = [Path(vehicle)] if Path(vehicle).suffix else []
-    check_outputs(outputs, TABLES, force)
-    check_not_inputs(files, inputs)
+    check_not_inputs(to.files, inputs)
     hull = load_vehicle(vehicle).hull
     table = case_table(hull, speed=speed, radii=radius or RADII, **water)
     lists = {name: plain(column) for name, column in table.columns.items()}
     rows = [dict(zip(lists, row, strict=True)) for row in zip(*lists.values(), strict=True)]
-    document = {"cases": rows, "counts": table.counts(), "warnings": table.warnings}
-    found = Kept(lists, document)
-    keep(found, *files, record=provenance(inputs=inputs, origin="computed"), force=force)
-    warn(table.warnings, quiet)
-    for path in files:
-        say(f"wrote {path}", quiet)
-    if stdout:
-        write_csv(found, sys.stdout)
-    else:
-        print(json_text(document) if json else _text(table, vehicle))
+    found = Kept(lists, {"cases": rows, "counts": table.counts(), "warnings": table.warnings})
+    give(
+        found, to, text(table, vehicle), inputs=inputs, origin="computed", warnings=table.warnings, force=force,
+        quiet=quiet,
+    )  # fmt: skip
 
 
 def _water(
@@ -103,28 +91,3 @@ def _water(
     absolute = float(seawater.absolute_salinity(practical, 0.0, None, 0.0))
     viscous = seawater_viscosity(temperature, absolute)
     return {"density": float(seawater.density(absolute, temperature, 0.0)), "viscosity": viscous, **given}
-
-
-def _text(table: CaseTable, vehicle: str) -> str:
-    """The table for people: how many of what, the water, the domain, a line a radius."""
-    column = table.columns
-    counts = table.counts()
-    first = {name: values[0] for name, values in column.items()}
-    lines = [
-        f"{len(column['case'])} cases for {vehicle}",
-        f"straight         {counts['straight']}, k-epsilon: angle of attack or sideslip -12 to 12 deg by 1",
-        f"turning          {counts['about-p3']} about p3, {counts['about-p2']} about p2, k-omega, at each radius:",
-        "                 sideslip -3 0 3 6 9 12 deg, angle of attack -3 3 6 9 deg",
-        f"speed            {first['speed_m_s']:g} m/s, Reynolds number {first['reynolds_number']:.3g}",
-        f"water            {first['density_kg_m3']:.6g} kg/m3, {first['viscosity_Pa_s']:.5g} Pa s",
-        f"domain           {first['domain_length_m']:.4g} m long, {first['domain_width_m']:.4g} m wide and high,",
-        f"                 inlet {first['inlet_distance_m']:.4g} m ahead of the centre of buoyancy",
-        "",
-        "radius m   rate rad/s   inlet m/s: inner edge   centre   outer edge",
-    ]
-    turning = column["set"] == "about-p3"
-    names = ("turning_radius_m", "angular_speed_rad_s", "inlet_speed_inner_m_s", "inlet_speed_centre_m_s",
-             "inlet_speed_outer_m_s")  # fmt: skip
-    shown = dict.fromkeys(zip(*(column[name][turning].tolist() for name in names), strict=True))
-    lines += [f"{r:>8g}   {w:>10.5f}   {a:>21.4f}   {b:>6.4f}   {c:>10.4f}" for r, w, a, b, c in shown]
-    return "\n".join(lines)

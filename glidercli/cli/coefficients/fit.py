@@ -52,48 +52,32 @@ def fit(
     debug: Debug = False,
 ) -> None:
     """Coefficients of eq. (20) from forces, by least squares in the order of section 3.3, with standard errors."""
-    from glidercli.cli.printing import finite, json_text, plain, say, warn
+    from glidercli.cli.answers import give, not_whole, wanted
+    from glidercli.cli.printing import finite
     from glidercli.coefficients.fit_figure import figure
     from glidercli.coefficients.new_vehicle import new_vehicle
     from glidercli.coefficients.result import fit as fitted
     from glidercli.coefficients.telling import columns, document, text
     from glidercli.errors import UsageError
-    from glidercli.files import check_not_inputs, check_outputs, readable_file
-    from glidercli.keeping import TABLES, Kept, keep
+    from glidercli.files import check_not_inputs, readable_file
+    from glidercli.keeping import TABLES, Kept
     from glidercli.pictures import PICTURES
-    from glidercli.provenance import provenance
 
-    outputs = output or []
-    stdout = Path("-") in outputs
-    if json and stdout:
-        raise UsageError("-o - and --json both want stdout; leave one out")
-    files = [path for path in outputs if path != Path("-")]
-    vehicles = [path for path in files if path.suffix.lower() == ".toml"]
-    if vehicles and vehicle is None:
-        raise UsageError(f"-o {vehicles[0]}: a vehicle file needs --vehicle for what forces do not tell")
-    if len(vehicles) > 1:
-        raise UsageError(f"-o {vehicles[1]}: one vehicle file is made at a time")
+    to = wanted(output, json, (*TABLES, ".toml", *PICTURES), force)
+    if to.vehicles and vehicle is None:
+        raise UsageError(f"-o {to.vehicles[0]}: a vehicle file needs --vehicle for what forces do not tell")
     inputs = [readable_file(forces), *([Path(vehicle)] if vehicle and Path(vehicle).suffix else [])]
-    check_outputs(outputs, (*TABLES, ".toml", *PICTURES), force)
-    check_not_inputs(files, inputs)
+    check_not_inputs(to.files, inputs)
 
     result = fitted(
         forces, vehicle=vehicle, density=density, subtract_munk=subtract_munk, partial=partial, hold=hold or []
     )
     warnings = list(result.warnings)
-    new = ""
-    if vehicles and result.base is not None:
-        new, missing = new_vehicle(result, result.base, vehicles[0].stem)
-        if missing:
-            warnings.append(f"{vehicles[0]} is not a whole vehicle yet; missing: {', '.join(missing)}")
+    made = ""
+    for new in to.vehicles:
+        assert result.base is not None
+        made, lacking = new_vehicle(result, result.base, new.stem)
+        warnings += not_whole(new, lacking)
     told = finite({**document(result), "warnings": warnings})
-    found = Kept(columns(result), told, lambda: figure(result), new)
-    keep(found, *files, record=provenance(inputs=inputs, origin="computed"), force=force)
-    warn(warnings, quiet)
-    for path in files:
-        say(f"wrote {path}", quiet)
-    if json or stdout:
-        print(json_text(told))
-    else:
-        for line in text(result).split("\n"):
-            print(plain(line))
+    found = Kept(columns(result), told, lambda: figure(result), made)
+    give(found, to, text(result), inputs=inputs, origin="computed", warnings=warnings, force=force, quiet=quiet)
