@@ -44,9 +44,9 @@ def text(found: Estimated, base: Base | None) -> str:
     pitch, yaw = (found.coefficients[symbol].total.value for symbol in ("K_M", "K_MY"))
     lines += [
         "",
-        f"K_M and K_MY come without the Munk moments that the model has from the added mass, "
-        f"{_number(found.munk[0])} and {_number(found.munk[1])} kg/rad; whole moments {_number(pitch + found.munk[0])} and "
-        f"{_number(yaw + found.munk[1])} kg/rad.",
+        "K_M and K_MY come without the Munk moments that the model has from the added mass, "
+        f"{_number(found.munk[0])} and {_number(found.munk[1])} kg/rad; "
+        f"whole moments {_number(pitch + found.munk[0])} and {_number(yaw + found.munk[1])} kg/rad.",
         _ERROR_BAR,
     ]
     return "\n".join(lines)
