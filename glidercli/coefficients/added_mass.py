@@ -1,8 +1,8 @@
 """What water does a vehicle drag along? Each part's added mass and the whole's, about the centre of buoyancy.
 
 Two answers side by side. ``strips``: hull and surfaces by strips alone, as section 2.5 of the paper does; surge is
-Lamb's, since strips have none. ``corrected``: the hull by the exact values of the spheroid of its length and volume,
-the surfaces with the flow around their tips and the hull's own flow across.
+Lamb's, since strips have none. ``corrected``: the hull's times what they are off by for the spheroid of its length and
+volume, whose own are exact then; the surfaces with the flow around their tips and the hull's own flow across.
 """
 
 from __future__ import annotations

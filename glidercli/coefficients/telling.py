@@ -119,14 +119,16 @@ def text(result: Result) -> str:
         f"{fit.density:.6g} kg/m3, angles to {result.fitted_angle / DEGREE:.4g} deg"
         + ("; forces of added mass taken off" if result.subtracted else ""),
         "",
-        "coefficient               value  std error  unit       cases" + ("      base  off/std" if beside else ""),
+        "coefficient               value  std error  unit       cases" + ("      base   off/std" if beside else ""),
     ]
     for row in rows:
         line = f"{row['symbol']:<6} {row['name']:<13}{row['value']:>11.5g}{row['standard_error']:>11.2g}  "
         line += f"{row['unit']:<9}{row['cases']:>7}"
         if row["base_value"] is not None:
             apart = row["difference_in_standard_errors"]
-            line += f"{row['base_value']:>10.5g}" + ("" if apart is None else f"{apart:>+9.2f}")
+            line += f"{row['base_value']:>10.5g}"
+            if apart is not None:
+                line += f"{apart:>+10.2f}" if abs(apart) < 1e4 else f"{apart:>+10.0e}"
         lines.append(line)
     lines += ["", "equation                    R2   rms residual   largest  at line  correlation"]
     for one in fit.fitted:

@@ -71,9 +71,9 @@ def statistics(errors: Residuals) -> Errors:
 
 
 def _spread(values: Array) -> float:
-    """Largest less smallest value; what differs by rounding alone is constant: 0."""
+    """Largest less smallest value; what differs by rounding alone is constant: 0. No channel is known to 1e-12 SI."""
     spread = float(np.ptp(values))
-    return spread if spread > 1e-12 * float(np.max(np.abs(values))) else 0.0
+    return spread if spread > 1e-12 * max(1.0, float(np.max(np.abs(values)))) else 0.0
 
 
 def _pearson(a: Array, b: Array) -> float | None:
