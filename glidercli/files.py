@@ -53,7 +53,7 @@ def cr_alone(head: bytes) -> bool:
 def read_toml(path: Path, what: str) -> dict[str, Any]:
     """The tables of a TOML file; ``what`` says in an error what the file should be, as "a vehicle"."""
     try:
-        return tomllib.loads(readable_file(path).read_text(encoding="utf-8"))
+        return tomllib.loads(readable_file(path).read_text(encoding="utf-8-sig"))
     except UnicodeDecodeError:
         raise InputError(path, f"is not a text file; {what} is a TOML file in UTF-8") from None
     except tomllib.TOMLDecodeError as error:

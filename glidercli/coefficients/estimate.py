@@ -162,8 +162,6 @@ def estimate(
     ):  # fmt: skip
         if not least <= value <= most:
             raise InputError(name, f"{value:g} {unit} is not allowed; {least:g} to {most:g} are")
-    if taken := [name for name in geometry.surface if name in ("hull", FURTHER, MUNK)]:
-        raise InputError(geometry.name, f"surface.{taken[0]}: the name stands for another part; another is needed")
     water = added_mass(geometry)
     own = water.total()
     munk = (own.heave - own.surge, own.surge - own.sway) if added is None else munk_slopes(added)

@@ -19,12 +19,17 @@ from glidercli.files import read_toml
 from glidercli.vehicle.checking import checked
 from glidercli.vehicle.quantity import Quantity
 
-__all__ = ["Geometry", "HullShape", "Surface", "load_geometry", "shipped_geometries"]
+__all__ = ["WHOLE", "Geometry", "HullShape", "Surface", "load_geometry", "shipped_geometries"]
 
 Array = NDArray[np.float64]
 
 _CONFIG = ConfigDict(extra="forbid")
 _DATA = Path(__file__).parent / "geometries"
+
+_LEAST_RADIUS = 1e-4  # m, of the thickest section
+_LEAST_INSIDE = 1e-5  # m, between nose and tail
+WHOLE = ("hull", "further", "Munk")
+"""Names that stand for other parts than surfaces: see added_mass.py and estimate.py."""
 
 Length = Annotated[float, Quantity("m", 0.01, 20.0)]
 Along = Annotated[float, Quantity("m", -50.0, 50.0)]
@@ -74,11 +79,14 @@ class HullShape:
                 f"hull.stations: station {at + 1} at {x[at]:g} m does not lie behind station {at} at {x[at - 1]:g} m: "
                 "the outline crosses itself; allowed: from nose to tail, each behind the one before"
             ]
-        if empty := np.flatnonzero(r[1:-1] == 0.0).tolist():
-            at = empty[0] + 1
-            return [f"hull.radii: radius {at + 1} is 0 between nose and tail: the hull falls in two; allowed: above 0"]
-        if not r.max() > 0.0:
-            return ["hull has no volume: all radii are 0"]
+        if not r.max() >= _LEAST_RADIUS:
+            return [f"hull has no volume: its largest radius is {r.max():g} m, allowed: {_LEAST_RADIUS:g} m or more"]
+        if thin := np.flatnonzero(r[1:-1] < _LEAST_INSIDE).tolist():
+            at = thin[0] + 1
+            return [
+                f"hull.radii: radius {at + 1} is {r[at]:g} m between nose and tail: the hull falls in two; allowed: "
+                f"{_LEAST_INSIDE:g} m or more"
+            ]
         if x[0] - x[-1] <= 2.0 * r.max():
             return [
                 f"hull is {x[0] - x[-1]:g} m long and {2.0 * r.max():g} m thick; allowed: longer than thick, "
@@ -189,6 +197,15 @@ class Geometry:
         from glidercli.coefficients.planform import overlap, root
 
         faults = [
+            f"surface.{name}: the name stands for another part; {', '.join(WHOLE)} are taken"
+            for name in self.surface
+            if name in WHOLE
+        ]
+        nose, tail = self.hull.ends
+        if self.centre_of_buoyancy is not None and not tail <= self.centre_of_buoyancy <= nose:
+            told = f"centre_of_buoyancy = {self.centre_of_buoyancy:g} m"
+            faults.append(f"{told}, allowed: in the hull, {tail:g}..{nose:g} m")
+        faults += [
             f"surface.{name} does not stick out of the hull: its tip is {item.semi_span:g} m from the axis, the hull's "
             f"radius there {float(self.hull.radius(np.array([_middle(item, item.semi_span)]))[0]):g} m"
             for name, item in self.surface.items()

@@ -45,6 +45,8 @@ def _fault(cls: type, item: Any) -> str:
             return f"{key} is missing{_allowed(cls, item['loc'])}"
         case "unexpected_keyword_argument":
             return f"{key} is unknown; known here: {', '.join(_known(cls, item['loc'][:-1]))}"
+        case "dataclass_type" | "dict_type":
+            return f"{key} = {item['input']!r} is no table; write [{key}]"
         case "value_error":
             told = str(item["ctx"]["error"])
             return told if told.startswith(key) else f"{key}: {told}"

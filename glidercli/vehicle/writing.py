@@ -42,8 +42,8 @@ def revised(
 
     base : a vehicle file; tables and numbers may be missing in it. Its comments stay. None begins a new file.
     tables : numbers by table and key, as {"added_mass": {"mass": Number(...)}}; their units are the vehicle's.
-    name, changed : of the new vehicle, if it is new or the base a shipped one, and what its description then says was
-    changed; a file of the user's keeps its own.
+    name : of the new vehicle, if it is new or the base a shipped one; a file of the user's keeps its own.
+    changed : what was changed, for its description.
 
     Raises
     ------
@@ -55,11 +55,12 @@ def revised(
     document: Any = tomlkit.document()
     if base is not None:
         read_toml(base, "a vehicle")
-        document = tomlkit.parse(base.read_text(encoding="utf-8"))
+        document = tomlkit.parse(base.read_text(encoding="utf-8-sig"))
     if base is None or base in shipped_vehicles().values():
         document["name"] = name
-        if "description" in document:
-            document["description"] = f"{document['description']}; {changed}"
+    told = document.get("description")
+    if isinstance(told, str) and changed not in told:
+        document["description"] = f"{told}; {changed}"
     for table, numbers in tables.items():
         if not isinstance(document.setdefault(table, tomlkit.table()), dict):
             raise InputError(base or name, f"{table} = {document[table]!r} is no table; write [{table}]")

@@ -222,12 +222,6 @@ def test_numbers_that_no_estimate_can_be_made_for(given):
         estimate(shape(), **given)
 
 
-def test_a_surface_with_the_name_of_another_part():
-    geometry = dataclasses.replace(shape(), surface={"hull": shape().surface["fin"]})
-    with pytest.raises(InputError, match=r"surface\.hull"):
-        estimate(geometry)
-
-
 def test_what_the_formulas_are_not_for_is_said():
     assert any("Reynolds number" in line for line in estimate(shape(), viscosity=0.1).warnings)
     two = dataclasses.replace(

@@ -37,8 +37,6 @@ BAD = [
     (ELLIPSOID.replace("diameter", "width"), r"hull\.width is unknown; known here: length, diameter, nose"),
     ('[hull]\nlength = { value = 2.0, unit = "m" }\n', r"needed are length and diameter of an ellipsoid, or stations and"),
     (outline([1.0, 0.2, 0.5, -1.0], [0.0, 0.1, 0.1, 0.0]), r"station 3 at 0\.5 m does not lie behind station 2 at 0\.2 m: the outline crosses itself"),
-    (outline([1.0, 0.0, -1.0], [0.0, 0.0, 0.0]), r"the hull falls in two|hull has no volume"),
-    (outline([1.0, 0.5, 0.0, -1.0], [0.0, 0.1, 0.0, 0.1]), r"radius 3 is 0 between nose and tail: the hull falls in two"),
     (outline([1.0, 0.0, -1.0], [0.0, -0.1, 0.0]), r"hull\.radii = \[0\.0, -0\.1, 0\.0\] m, allowed a list of numbers, each 0\.\.5 m"),
     (outline([1.0, 0.0, -1.0], [0.0, 0.1]), r"3 stations and 2 radii"),
     (outline([1.0, -1.0], [0.1, 0.1]), r"2 given, at least 3 are needed"),
@@ -51,6 +49,14 @@ BAD = [
     (ELLIPSOID + surface() + surface("tail", root=0.0, tip_at=-0.05), r"surface\.wing and surface\.tail cross each other in the horizontal plane"),
     (ELLIPSOID + "[surface.wing]\n", r"surface\.wing\.plane is missing"),
     ("", r"hull is missing"),
+    (outline([1.0, 0.0, -1.0], [0.0, 0.0, 0.0]), r"hull has no volume: its largest radius is 0 m, allowed: 0\.0001 m or more"),
+    (outline([1.0, 0.0, -1.0], [0.0, 1e-9, 0.0]), r"hull has no volume: its largest radius is 1e-09 m"),
+    (outline([1.0, 0.5, 0.0, -1.0], [0.0, 0.1, 0.0, 0.1]), r"radius 3 is 0 m between nose and tail: the hull falls in two"),
+    (outline([1.0, 0.5, 0.0, -1.0], [0.0, 0.1, 1e-9, 0.1]), r"radius 3 is 1e-09 m between nose and tail: the hull falls in two"),
+    (ELLIPSOID + surface("hull"), r"surface\.hull: the name stands for another part; hull, further, Munk are taken"),
+    ('centre_of_buoyancy = { value = 5.0, unit = "m" }\n' + ELLIPSOID, r"centre_of_buoyancy = 5 m, allowed: in the hull, -1\.\.1 m"),
+    ("hull = 3\n", r"hull = 3 is no table; write \[hull\]"),
+    ("surface = 3\n" + ELLIPSOID, r"surface = 3 is no table; write \[surface\]"),
 ]  # fmt: skip
 
 
@@ -105,3 +111,9 @@ def test_centre_of_buoyancy_is_that_of_the_volume(tmp_path):
 def test_hull_from_its_nose(tmp_path):
     text = '[hull]\nlength = { value = 2.0, unit = "m" }\ndiameter = { value = 0.2, unit = "m" }\nnose = { value = 0.0, unit = "m" }\n'
     assert added_mass(load(tmp_path, text)).origin == pytest.approx(-1.0, abs=1e-9)
+
+
+def test_a_mark_of_utf8_at_the_start_is_no_fault(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text("\ufeff" + HEAD + ELLIPSOID, encoding="utf-8")
+    assert load_geometry(path)[0].hull.length == 2.0
