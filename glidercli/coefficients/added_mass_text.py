@@ -19,7 +19,7 @@ def text(estimate: Estimate, beside: tuple[str, Terms] | None, left: Rest | None
     g = estimate.geometry
     lines = [
         f"ESTIMATED by strip theory: {g.name}, {g.description}",
-        f"hull {g.hull.length_overall:.3f} m x {g.hull.thickest:.3f} m, volume {1e3 * estimate.volume:.2f} dm3 "
+        f"hull {g.hull.length_overall:.3f} m x {g.hull.thickest:.3f} m; with surfaces {1e3 * estimate.volume:.2f} dm3 "
         f"({estimate.volume * g.density:.2f} kg), centre of buoyancy at {estimate.origin:z.4f} m",
         "",
     ]

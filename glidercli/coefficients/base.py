@@ -11,7 +11,7 @@ from glidercli.files import read_toml
 from glidercli.units import DEGREE
 from glidercli.vehicle.checking import check
 from glidercli.vehicle.load import shipped_vehicles
-from glidercli.vehicle.vehicle import AddedMass, Vehicle
+from glidercli.vehicle.vehicle import AddedMass, Hull, Vehicle
 from glidercli.vehicle.writing import vehicle_file
 
 __all__ = ["Base", "read_base"]
@@ -20,7 +20,7 @@ __all__ = ["Base", "read_base"]
 class Base(NamedTuple):
     """path : of the file. name : of the vehicle, or of its file. coefficients : by symbol.
 
-    density : at which they hold, kg/m3. added_mass, fitted_angle (rad) : None where the file has none.
+    density : at which they hold, kg/m3. added_mass, fitted_angle (rad), hull : None where the file has none.
     sources : where each number of the tables hydrodynamics and added_mass comes from, by key.
     """
 
@@ -31,6 +31,7 @@ class Base(NamedTuple):
     sources: dict[str, str]
     name: str
     fitted_angle: float | None
+    hull: Hull | None
 
 
 def read_base(name_or_path: str) -> Base:
@@ -46,6 +47,8 @@ def read_base(name_or_path: str) -> Base:
         raise InputError.of_all(path, faults)
     hydro: dict[str, Any] = document.get("hydrodynamics", {})
     added: dict[str, Any] = document.get("added_mass", {})
+    hull: dict[str, Any] = document.get("hull", {})
+    has_hull = bool(hull) and not any(name.startswith("hull") for name in missing)
     keys = ("mass", "inertia", "yaw_from_sway", "pitch_from_heave")
     whole = bool(added) and not any(name.startswith("added_mass") for name in missing)
     values = [added[key]["value"] for key in keys] if whole else []
@@ -57,4 +60,5 @@ def read_base(name_or_path: str) -> Base:
         {key: str(item.get("source", "")) for table in (hydro, added) for key, item in table.items()},
         str(document.get("name", path.stem)),
         float(hydro["fitted_angle"]["value"]) * DEGREE if "fitted_angle" in hydro else None,
+        Hull(hull["length"]["value"], hull["diameter"]["value"]) if has_hull else None,
     )

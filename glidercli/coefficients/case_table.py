@@ -73,9 +73,12 @@ def cases(
 
     Raises InputError for a value that cannot be, or a radius that puts the centre of curvature into the domain.
     """
-    for name, value in (("speed", speed), ("density", density), ("viscosity", viscosity)):
-        if not 0.0 < value < math.inf:
-            raise InputError(name, f"{value:g} is not allowed; a positive number is needed")
+    for name, value, least, most, unit in (
+        ("speed", speed, 1e-3, 50.0, "m/s"), ("density", density, 900.0, 1200.0, "kg/m3"),
+        ("viscosity", viscosity, 1e-4, 0.1, "Pa s"),
+    ):  # fmt: skip
+        if not least <= value <= most:
+            raise InputError(name, f"{value:g} {unit} is not allowed; {least:g} to {most:g} are")
     half = _HALF_WIDTH * hull.diameter
     for radius in radii:
         if not half < radius < math.inf:

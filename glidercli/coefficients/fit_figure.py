@@ -61,7 +61,11 @@ def figure(result: Result) -> Figure:
     count = len(shown) + ratio
     across = 2 if count == 4 else min(count, 3)
     down = -(-count // across)
-    head, foot = 0.72, 0.72
+    values = "; ".join(
+        f"{symbol} {value:.4g} ± {error:.2g}" for symbol, (value, error, _) in result.fit.values().items()
+    )
+    lines = textwrap.wrap(values + " (standard errors; units as in a vehicle file)", 132)
+    head, foot = 0.72, 0.5 + 0.11 * len(lines)
     height = head + foot + _ROW * down
     drawing = Figure(figsize=(pictures.WIDTH, height))
     grid = drawing.add_gridspec(
@@ -82,10 +86,6 @@ def figure(result: Result) -> Figure:
     hollow = "; hollow: turning nose down" if _turns_both_ways(result) else ""
     named = f"{used}. Dots: the table; lines: the fit; below: table less fit{hollow}."
     drawing.text(0.01, 1.0 - 0.3 / height, named, va="top", color="#444444")
-    values = "; ".join(
-        f"{symbol} {value:.4g} ± {error:.2g}" for symbol, (value, error, _) in result.fit.values().items()
-    )
-    lines = textwrap.wrap(values + " (standard errors; units as in a vehicle file)", 132)
     drawing.text(0.01, 0.06 / height, "\n".join(lines), va="bottom", size=6.5, color="#444444")
     return drawing
 

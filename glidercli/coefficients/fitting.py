@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from glidercli.coefficients.force_columns import FLOW, spelled
 from glidercli.coefficients.force_table import Forces
+from glidercli.coefficients.misfits import misfits
 from glidercli.coefficients.regression import Regression, regress
 from glidercli.errors import InputError
 from glidercli.units import DEGREE
@@ -30,6 +31,8 @@ SYMBOLS = {
 
 ZERO_ANGLE = 0.05 * DEGREE
 """An angle within this of zero is zero: tables may be rounded."""
+_FEW, _OTHER_SIZE = 3, 100.0
+"""Cases of each kind, and the ratio of their largest pitch moments, from which on they are told in two units."""
 _DECIMALS = 4
 """of rad, m/s and 1/m, by which cases are told apart when they are counted."""
 
@@ -114,6 +117,8 @@ class Fit(NamedTuple):
     lacking: dict[str, str]
     density: float
     """kg/m3, at which the coefficients hold."""
+    far_off: list[tuple[Equation, int]]
+    """Rows of the table that an equation is far off, and that no other unit explains."""
 
     def values(self) -> dict[str, tuple[float, float, Fitted]]:
         """Value, standard error and equation of each coefficient that was found, in the order of SYMBOLS."""
@@ -147,7 +152,9 @@ def fit_forces(
     }  # fmt: skip
     values = dict(hold or {})
     fitted: list[Fitted] = []
+    far_off: list[tuple[Equation, int]] = []
     lacking: dict[str, str] = {}
+    _refuse_other_sizes(f)
     for equation in (_holding(equation, values) for equation in EQUATIONS):
         if not equation.unknowns:
             continue
@@ -160,6 +167,10 @@ def fit_forces(
             X = np.stack([quantities[symbol][chosen] for symbol in equation.unknowns], axis=1)
             Z = np.stack([quantities[symbol][chosen] for symbol in equation.held] or [np.zeros(len(X))], axis=1)
             given = Z @ ([values[symbol] for symbol in equation.held] or [0.0])
+            rows = np.flatnonzero(chosen)
+            odd = misfits(X, y[chosen] - given)
+            _refuse_other_units(f, equation, rows, odd.other_unit)
+            far_off += [(equation, int(rows[row])) for row in odd.far_off]
             found = regress(X, y[chosen] - given, Z, _covariance(fitted, equation.held))
             if found.distinct:
                 fitted.append(Fitted(equation, np.flatnonzero(chosen), y[chosen], y[chosen] - found.residual, found))
@@ -171,7 +182,32 @@ def fit_forces(
     if lacking and not (partial and fitted):
         more = "" if partial else "; --partial fits the others"
         raise InputError(f.path, f"too little for {'; '.join(lacking.values())}{more}")
-    return Fit(fitted, lacking, density)
+    return Fit(fitted, lacking, density, far_off)
+
+
+def _refuse_other_units(f: Forces, equation: Equation, rows: NDArray[np.int64], other: Mapping[int, str]) -> None:
+    """Rows of an equation that are told in another unit than its others."""
+    if other:
+        column = next(name for name, symbol in FLOW.items() if symbol == equation.measured)
+        lines = ", ".join(str(f.lines[rows[row]]) for row in list(other)[:8])
+        more = f" and {len(other) - 8} more" if len(other) > 8 else ""
+        told = " or ".join(dict.fromkeys(other.values()))
+        raise InputError(f.path, f"lines {lines}{more}: {spelled(column)}, {told}; one unit is allowed in a column")
+
+
+def _refuse_other_sizes(f: Forces) -> None:
+    """Pitch moments of straight and of turning cases that cannot be of one vehicle in one unit."""
+    T2 = np.abs(f.measured[:, list(FLOW.values()).index("T2")])
+    straight, turning = (T2[(f.kind == kind) & ~np.isnan(T2)] for kind in ("straight", "about-p2"))
+    if len(straight) < _FEW or len(turning) < _FEW or not min(straight.max(), turning.max()) > 0.0:
+        return
+    ratio = float(turning.max() / straight.max())
+    if not 1.0 / _OTHER_SIZE < ratio < _OTHER_SIZE:
+        raise InputError(
+            f.path,
+            f"{spelled('pitch_moment')}: the largest of the cases turning about p2 is {ratio:.3g} times that of the "
+            "straight ones, as if in another unit; one unit is allowed in a column",
+        )
 
 
 def _holding(equation: Equation, values: Mapping[str, float]) -> Equation:

@@ -29,6 +29,8 @@ _AGREE = 0.01
 _AXIS = math.cos(math.radians(2.5))
 """Turning is about an axis of the flow frame if it is within 2.5 deg of it: angles of the table may be rounded."""
 _STILL = 1e-6  # rad/s
+FASTEST = 15.0
+"""m/s; the fastest towing tanks. What is above was meant in another unit."""
 
 
 class Forces(NamedTuple):
@@ -72,13 +74,30 @@ def read_forces(path: Path) -> Forces:
     if "density" in found:
         density = _column(table, found["density"], 900.0, 1200.0)
     measured, frame = _measured(table, found, R)
+    for i, name in enumerate(FLOW):
+        told = measured[~np.isnan(measured[:, i]), i]
+        if name in ("drag", "lift") and len(told) and not told.any():
+            raise InputError(path, f"{spelled(name)}: every value is 0; forces are needed")
     if np.isnan(measured).all():
         raise InputError(
             path, f"holds no force and no moment; needed is one of {', '.join(map(spelled, FLOW))} or more"
         )
     said = origins(path, zip(table.lines, table.cells["origin"], strict=True)) if "origin" in table else ()
     lines, kind = np.array(table.lines), _kinds(R, Omega)
+    _check_set(table, kind)
     return Forces(path, lines, alpha, beta, speed, Omega, density, kind, measured, frame, ignored, said)
+
+
+def _check_set(table: Table, kind: NDArray[np.str_]) -> None:
+    """A column set must say what the velocities and rates say."""
+    if "set" not in table:
+        return
+    allowed = (*SETS, "about-p1")
+    for line, said, found in zip(table.lines, table.cells["set"], kind.tolist(), strict=True):
+        if said not in allowed:
+            raise InputError(table.path, f"line {line}: set = {said or 'empty'}, allowed: {', '.join(allowed)}")
+        if said != found:
+            raise InputError(table.path, f"line {line}: set = {said}, and by the rates p, q, r it is {found}")
 
 
 def _column(table: Table, column: Column, low: float, high: float, gaps: bool = False) -> Array:
@@ -97,7 +116,9 @@ def _flow(table: Table, found: dict[str, Column]) -> tuple[Array, Array, Array]:
     """alpha, beta and V: from the angles and the speed, or from the velocity; where both stand they must agree."""
     by_velocity = [found[name] for name in ("u", "v", "w") if name in found]
     by_angles = [found[name] for name in ("angle_of_attack", "sideslip", "speed") if name in found]
-    V = np.stack([_column(table, column, -50.0, 50.0) for column in by_velocity] or [np.zeros(len(table))], axis=1)
+    V = np.stack(
+        [_column(table, column, -FASTEST, FASTEST) for column in by_velocity] or [np.zeros(len(table))], axis=1
+    )
     if len(by_angles) < 3:
         if len(by_velocity) < 3:
             raise lacking(found, ("angle_of_attack", "sideslip", "speed"), table)
@@ -106,7 +127,7 @@ def _flow(table: Table, found: dict[str, Column]) -> tuple[Array, Array, Array]:
             raise InputError(table.path, f"line {line}: the speed is 0, allowed: more")
         return np.arctan2(V[:, 2], V[:, 0]), np.arcsin(V[:, 1] / speed), speed
     alpha, beta = (_angles(table, found[name]) for name in ("angle_of_attack", "sideslip"))
-    speed = _column(table, found["speed"], 1e-3, 50.0)
+    speed = _column(table, found["speed"], 1e-3, FASTEST)
     if len(by_velocity) == 3:
         ahead = speed[:, None] * to_body(alpha, beta)[:, :, 0]
         off = np.linalg.norm(ahead - V, axis=1) / speed

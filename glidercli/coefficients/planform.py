@@ -28,11 +28,14 @@ def root(surface: Surface, hull: HullShape) -> float | None:
     A strip is taken as out of the hull where its middle is.
     """
     s = np.linspace(surface.root_offset, surface.semi_span, _STEPS + 1)
-    outside = s >= hull.radius(middle(surface, s))
-    if not outside[-1]:
+    out = s - hull.radius(middle(surface, s))
+    if out[-1] < 0.0:
         return None
-    inside = np.flatnonzero(~outside)
-    return float(s[inside[-1] + 1]) if len(inside) else float(s[0])
+    inside = np.flatnonzero(out < 0.0)
+    if not len(inside):
+        return float(s[0])
+    at = inside[-1]
+    return float(s[at] + (s[at + 1] - s[at]) * out[at] / (out[at] - out[at + 1]))
 
 
 def overlap(one: Surface, other: Surface) -> bool:

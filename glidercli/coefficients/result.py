@@ -19,6 +19,8 @@ __all__ = ["Result", "fit", "impossible"]
 
 _UNSURE = 0.5
 """A coefficient whose standard error exceeds this share of its value is warned of."""
+_FAR = 30.0
+"""Ratio to the base's coefficient from which on units are in doubt."""
 _TOGETHER = 0.95
 """Correlation of two coefficients beyond which the cases hardly tell them apart."""
 
@@ -82,10 +84,10 @@ def fit(
     at = _density(table, density)
     twice = repeats(table)
     if subtract_munk:
-        if base is None or base.added_mass is None or base.density is None:
-            told = "it needs --vehicle" if base is None else f"{base.path} has no added mass with its density"
+        if base is None or base.added_mass is None:
+            told = "it needs --vehicle" if base is None else f"{base.path} has no added mass"
             raise UsageError(f"--subtract-munk takes off what added mass gives; {told}")
-        table = without_added_mass(table, base.added_mass, base.density, at)
+        table = without_added_mass(table, base.added_mass, base.density or at, at)
     scale = at / base.density if base is not None and base.density is not None else 1.0
     found = fit_forces(
         table,
@@ -138,7 +140,7 @@ def _unused(f: Forces, found: Fit, copies: np.ndarray[tuple[int], np.dtype[np.in
         if row in used:
             continue
         if copies[row] >= 0:
-            reason = f"the same as line {f.lines[copies[row]]}"
+            reason = "the same as another line"
         elif np.isnan(f.measured[row]).all():
             reason = "without any force or moment"
         elif f.kind[row] == "about another axis":
@@ -173,12 +175,16 @@ def _warnings(result: Result) -> list[str]:
         said.append(
             f"{len(lines)} of {len(f.lines)} cases not used, {reason}: lines {', '.join(map(str, lines[:8]))}{more}"
         )
-    gaps = int(np.isnan(f.measured[:, ~np.isnan(f.measured).all(axis=0)]).sum())
-    if gaps:
+    gaps = f.lines[np.isnan(f.measured[:, ~np.isnan(f.measured).all(axis=0)]).any(axis=1)]
+    if len(gaps):
+        more = f" and {len(gaps) - 8} more" if len(gaps) > 8 else ""
         said.append(
-            f"{gaps} forces or moments are told in no cell, or as NaN: those cases are left out where they count"
+            f"{len(gaps)} cases lack a force or a moment and are left out where it counts: "
+            f"lines {', '.join(map(str, gaps[:8]))}{more}"
         )
     said += [f"not fitted: {text}" for text in found.lacking.values()]
+    for equation, row in found.far_off[:8]:
+        said.append(f"line {f.lines[row]}: {equation.measured} is far from what the other cases tell ({equation.name})")
     for symbol, (value, error, one) in found.values().items():
         if error > _UNSURE * abs(value):
             alike = one.found.correlation
@@ -192,6 +198,7 @@ def _warnings(result: Result) -> list[str]:
         alike = one.found.correlation
         if alike is not None and abs(alike) > _TOGETHER:
             said.append(f"{' and '.join(one.equation.unknowns)} are hardly told apart: correlation {alike:.3f}")
+    said += _other_scale(result)
     said += impossible(result)
     said += _munk_note(result)
     if result.kept:
@@ -199,6 +206,17 @@ def _warnings(result: Result) -> list[str]:
     if result.absent:
         said.append(f"neither fitted nor in a vehicle: {', '.join(result.absent)}")
     return said
+
+
+def _other_scale(result: Result) -> list[str]:
+    """Coefficients so far from the base's that the table may be in other units than it says."""
+    base = result.base.coefficients if result.base else {}
+    far = []
+    for symbol, (value, error, _) in result.fit.values().items():
+        own = base.get(symbol, 0.0)
+        if own and abs(value) > 3.0 * error and not 1.0 / _FAR < abs(value / own) < _FAR:
+            far.append(f"{symbol} {value / own:.3g}")
+    return [f"times the vehicle's: {', '.join(far)}; another vehicle, or other units than the columns say"] * bool(far)
 
 
 def _munk_note(result: Result) -> list[str]:

@@ -91,7 +91,7 @@ def test_the_range_of_the_turbulence_models_is_a_warning(glider: Run) -> None:
     ("arguments", "code", "told"),
     [
         (("--radius", 1.9), 1, "radius: 1.9 m is not allowed; more than 1.98 m is needed"),
-        (("--speed", 0), 1, "speed: 0 is not allowed"),
+        (("--speed", 0), 1, "speed: 0 m/s is not allowed"),
         (("--vehicle", "nosuch"), 1, "nosuch: is no vehicle"),
         (("--temperature", 90), 1, "temperature: 90 degC"),
         (("--temperature", 15, "--salinity", 99), 1, "--salinity: 99 is not allowed; 0 to 42"),

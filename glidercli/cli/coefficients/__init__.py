@@ -12,8 +12,8 @@ app = typer.Typer(
     rich_markup_mode=None,
     no_args_is_help=True,
 )
-app.command("added-mass", no_args_is_help=True)(added_mass.added_mass)
-app.command("cases")(cases.cases)
-app.command("fit", no_args_is_help=True)(fit.fit)
-app.command("estimate", no_args_is_help=True)(estimate.estimate)
+app.command("added-mass", no_args_is_help=True, short_help="The added mass of a shape.")(added_mass.added_mass)
+app.command("cases", short_help="The CFD cases of Table 2, for any program.")(cases.cases)
+app.command("fit", no_args_is_help=True, short_help="The coefficients from a table of forces.")(fit.fit)
+app.command("estimate", no_args_is_help=True, short_help="The coefficients of a shape, without CFD.")(estimate.estimate)
 app.command("geometries")(lists.geometries)

@@ -62,6 +62,11 @@ def added_mass(
         changed = f"hull and added mass of {shape.name}"
         made, lacking = revised(base.path if base else None, tables, name=new.stem, changed=changed)
         warnings += not_whole(new, lacking)
+        if base is not None and "KM" in base.coefficients:
+            warnings.append(
+                f"K_M and K_MY stay those of {base.name}; estimates, and fits with --subtract-munk, hold with the "
+                "added mass that they were made with, and are to be made anew"
+            )
     give(
         answer(found, beside, left, made), to, text(found, beside, left), inputs=inputs, origin="estimated",
         warnings=warnings, force=force, quiet=quiet,

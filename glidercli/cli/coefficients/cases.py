@@ -47,24 +47,27 @@ def cases(
 ) -> None:
     """The CFD cases that the fit needs: Table 2 of the paper, with velocities, rates and the flow domain."""
     from glidercli.cli.answers import give, wanted
+    from glidercli.coefficients.base import read_base
     from glidercli.coefficients.case_table import RADII
     from glidercli.coefficients.case_table import cases as case_table
     from glidercli.coefficients.case_text import text
+    from glidercli.errors import InputError
     from glidercli.files import check_not_inputs
     from glidercli.keeping import TABLES, Kept, plain
-    from glidercli.vehicle import load_vehicle
 
     to = wanted(output, json, TABLES, force)
     water = _water(density, viscosity, temperature, salinity)
     inputs = [Path(vehicle)] if Path(vehicle).suffix else []
     check_not_inputs(to.files, inputs)
-    hull = load_vehicle(vehicle).hull
-    table = case_table(hull, speed=speed, radii=radius or RADII, **water)
+    base = read_base(vehicle)
+    if base.hull is None:
+        raise InputError(base.path, "has no hull; the cases need its length and diameter")
+    table = case_table(base.hull, speed=speed, radii=radius or RADII, **water)
     lists = {name: plain(column) for name, column in table.columns.items()}
     rows = [dict(zip(lists, row, strict=True)) for row in zip(*lists.values(), strict=True)]
     found = Kept(lists, {"cases": rows, "counts": table.counts(), "warnings": table.warnings})
     give(
-        found, to, text(table, vehicle), inputs=inputs, origin="computed", warnings=table.warnings, force=force,
+        found, to, text(table, base.name), inputs=inputs, origin="computed", warnings=table.warnings, force=force,
         quiet=quiet,
     )  # fmt: skip
 

@@ -131,9 +131,9 @@ def test_the_default_viscosity_is_that_of_seawater_at_15_deg():
         ({"radii": [float("nan")]}, "nan m"),
         ({"radii": [float("inf")]}, "inf m"),
         ({"radii": [5.0, 5.0]}, "given twice"),
-        ({"speed": 0.0}, "speed: 0 is not allowed"),
+        ({"speed": 0.0}, "speed: 0 m/s is not allowed"),
         ({"speed": float("nan")}, "speed: nan"),
-        ({"viscosity": -1.0}, "viscosity: -1"),
+        ({"viscosity": -1.0}, "viscosity: -1 Pa s"),
         ({"density": float("inf")}, "density: inf"),
     ],
 )
