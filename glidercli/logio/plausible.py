@@ -1,47 +1,14 @@
-"""Which values of a channel cannot be? Bounds in SI, wide enough for any ocean and any glider."""
+"""Which values of a channel are kept on reading? Those that can be."""
 
 from __future__ import annotations
 
-import math
-
-from glidercli.channels import CHANNELS, PHASES
+from glidercli.channels import CHANNELS
+from glidercli.limits import limits_of
 from glidercli.logio.quantities import Quantity
 
 __all__ = ["quantity_of"]
 
-_TURN = 2.0 * math.pi
-_LIMITS: dict[str, tuple[float, float]] = {
-    "depth": (-10.0, 12000.0),
-    "pressure": (-1e5, 1.25e8),
-    "latitude": (-90.0, 90.0),
-    "longitude": (-180.0, 360.0),
-    "north": (-1e9, 1e9),
-    "east": (-1e9, 1e9),
-    "down": (-10.0, 12000.0),
-    "roll": (-math.pi, math.pi),
-    "pitch": (-0.5 * math.pi, 0.5 * math.pi),
-    "heading": (-math.pi, _TURN),
-    "mass_rotation": (-_TURN, _TURN),
-    "mass_position": (-5.0, 5.0),
-    "net_buoyancy": (-100.0, 100.0),
-    "ballast_volume": (-0.1, 0.1),
-    "rudder_angle": (-0.5 * math.pi, 0.5 * math.pi),
-    "angle_of_attack": (-math.pi, math.pi),
-    "sideslip": (-math.pi, math.pi),
-    "temperature": (-3.0, 45.0),
-    "conservative_temperature": (-3.0, 45.0),
-    "conductivity": (0.0, 8.0),
-    "salinity": (0.0, 45.0),
-    "absolute_salinity": (0.0, 45.0),
-    "density": (900.0, 1200.0),
-    "phase": (0.0, len(PHASES) - 1.0),
-}
-_OF_UNIT = {"m/s": (-10.0, 10.0), "rad/s": (-_TURN, _TURN)}
-
 
 def quantity_of(channel: str) -> Quantity:
     """The channel in SI with its bounds; a rounding of the conversion at a bound is allowed for."""
-    spec = CHANNELS[channel]
-    low, high = _LIMITS.get(channel) or _OF_UNIT[spec.unit]
-    slack = 1e-9 * max(abs(low), abs(high))
-    return Quantity(channel, 1.0, low - slack, high + slack, spec.unit)
+    return Quantity(channel, 1.0, *limits_of(channel), CHANNELS[channel].unit)

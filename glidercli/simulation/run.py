@@ -213,6 +213,7 @@ def simulate(
     )  # fmt: skip
     left = ocean.beyond(*flight.depths, float(flight.times[-1]))
     warnings = [*ocean.warnings, *wanted.warnings, *_warnings(flight, craft, wanted), *left]
+    warnings += suite.warnings() if suite else ["seed has no effect: no instrument is aboard"] * (seed is not None)
     spent = _costs(flight, craft, wanted)
     if spent.lost_to_water < -1e-3:
         warnings.append(

@@ -218,3 +218,35 @@ def test_the_page_prints_what_comes_out(glider: Run, glider_json: Callable[..., 
         for said, number in ((bias, -found["bias"]), (std, found["std"])):
             half = 0.5 * 10.0 ** -len(said.split(".")[1])  # of the last digit printed
             assert float(said) == pytest.approx(number, abs=1.01 * half), name
+
+
+def test_what_cannot_be_is_left_out_and_counted(glider: Run, plan: Path, tmp_path: Path) -> None:
+    """A compass that leans 100 deg: a pitch beyond 90 deg would be dropped by every reader, this program's with them."""
+    (tmp_path / "odd.toml").write_text("[instruments.compass]\nbias_pitch_deg = 100.0\n[instruments.pressure]\n")
+    done = glider("simulate", plan, "--instruments", "odd.toml", "-o", "odd.csv", "--json")
+    assert done.returncode == 0, done.stderr
+    read = json.loads(done.stdout)["instruments"]["compass"]["samples"]
+    count = re.search(
+        r"instruments\.compass: (\d+) readings of pitch that cannot be are left out, allowed -90 to 90", done.stderr
+    )
+    assert count is not None
+    assert int(count[1]) == read["heading"] - read["pitch"] > 0
+    pitch = pd.read_csv(tmp_path / "odd.csv")["pitch_deg"].dropna()
+    assert len(pitch) == read["pitch"]
+    assert pitch.max() <= 90.0
+
+
+def test_a_sensor_without_a_reading_and_a_seed_for_nobody_are_told(glider: Run, plan: Path, tmp_path: Path) -> None:
+    (tmp_path / "deaf.toml").write_text("[instruments.gps]\nantenna_depth_m = -5.0\n[instruments.compass]\n")
+    done = glider("simulate", plan, "--instruments", "deaf.toml")
+    assert "glider: warning: instruments.gps has no reading in this flight" in done.stderr
+    done = glider("simulate", plan, "--instruments", "none", "--seed", "3")
+    assert "glider: warning: seed has no effect: no instrument is aboard" in done.stderr
+    assert "seed has no effect" not in glider("simulate", plan, "--instruments", "none").stderr
+
+
+@pytest.mark.parametrize("given", ["1.0", "[0, 0]", '"up"'])
+def test_a_place_has_three_numbers(glider: Run, plan: Path, tmp_path: Path, given: str) -> None:
+    (tmp_path / "odd.toml").write_text(f"[instruments.pressure]\nposition_m = {given}\n")
+    told = "allowed three numbers: forward, starboard, down"
+    one_line_error(glider("simulate", plan, "--instruments", "odd.toml"), "instruments.pressure.position_m", told)

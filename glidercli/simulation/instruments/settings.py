@@ -39,7 +39,16 @@ SiemensSize = Annotated[float, number(0.0, 5.0)]
 Metres = Annotated[float, number(-10000.0, 10000.0)]
 MetresSize = Annotated[float, number(0.0, 10000.0)]
 _Coordinate = Annotated[float, number(-20.0, 20.0)]
-Position = tuple[_Coordinate, _Coordinate, _Coordinate]
+
+
+def _three(given: Any) -> Any:
+    """A place has three numbers."""
+    if not isinstance(given, (list, tuple)) or len(given) != 3:
+        raise ValueError(f"= {given!r}, allowed three numbers: forward, starboard, down, m")
+    return given
+
+
+Position = Annotated[tuple[_Coordinate, _Coordinate, _Coordinate], BeforeValidator(_three)]
 
 
 @dataclass(frozen=True, config=_CONFIG, kw_only=True)

@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glidercli.channels import CHANNELS
 from glidercli.errors import InputError
+from glidercli.limits import limits_of
 from glidercli.log import Channel, Log
 from glidercli.ocean.ocean import Ocean
 from glidercli.simulation.instruments.compass import CompassSensor
@@ -120,6 +122,7 @@ class Suite:
         self._last_step, self._last_ns = -1, -(2**63)
         self.samples = {kind: dict.fromkeys(sensor.channels, 0) for kind, sensor in self._sensors.items()}
         """How many readings each channel of each sensor has so far."""
+        self._impossible: dict[tuple[str, str], int] = {}
 
     def read(self, times: NDArray[np.float64], samples: NDArray[np.float64], truth: Log) -> Log:
         """What the sensors and the vehicle itself record of a piece of the flight.
@@ -145,7 +148,31 @@ class Suite:
             return {name: (np.array([], np.intp), np.array([])) for name in sensor.channels}
         settings = self._settings[kind]
         since = piece.steps - self.grid.steps(settings.offset_s)
-        return sensor.read(piece, np.flatnonzero((since >= 0) & (since % self.grid.steps(settings.period_s) == 0)))
+        taken = np.flatnonzero((since >= 0) & (since % self.grid.steps(settings.period_s) == 0))
+        readings = sensor.read(piece, taken)
+        return {name: self._possible(kind, name, *reading) for name, reading in readings.items()}
+
+    def _possible(
+        self, kind: str, name: str, rows: NDArray[np.intp], values: NDArray[np.float64]
+    ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+        """The readings of a channel that can be; the others, which errors made, are counted."""
+        low, high = limits_of(name)
+        can_be = (low <= values) & (values <= high)
+        if not can_be.all():
+            self._impossible[kind, name] = self._impossible.get((kind, name), 0) + int((~can_be).sum())
+        return rows[can_be], values[can_be]
+
+    def warnings(self) -> list[str]:
+        """What a user should know of the readings of the flight so far."""
+        silent = [kind for kind, samples in self.samples.items() if not any(samples.values())]
+        told = [f"instruments.{kind} has no reading in this flight" for kind in silent]
+        for (kind, name), count in self._impossible.items():
+            spec, (low, high) = CHANNELS[name], limits_of(name)
+            told.append(
+                f"instruments.{kind}: {count} readings of {name} that cannot be are left out, allowed "
+                f"{low * spec.factor:.6g} to {high * spec.factor:.6g} {spec.column_unit}"
+            )
+        return told
 
     def metadata(self) -> dict[str, str]:
         """What a reader of the log should know."""

@@ -382,7 +382,7 @@ BAD = [
     ("[instruments.compass]\nmount_pitch_deg = 91\n", ("mount_pitch_deg = 91",)),
     ('[instruments.pressure]\nnoise_dbar = "0.1"\n', ("noise_dbar = '0.1'",)),
     ("[instruments.pressure]\nresolution_dbar = -0.1\n", ("resolution_dbar = -0.1",)),
-    ("[instruments.pressure]\nposition_m = [0, 1]\n", ("position_m", "missing")),
+    ("[instruments.pressure]\nposition_m = [0, 1]\n", ("position_m = [0, 1]", "three numbers")),
     ("[instruments.pressure]\nposition_m = [0, 1, inf]\n", ("position_m.2 = inf",)),
     ("[instruments.ctd]\ncell_share = 1.5\n", ("cell_share = 1.5",)),
     ("[instruments.ctd]\nconductivity_noise_S_m = -1\n", ("conductivity_noise_S_m = -1",)),
