@@ -1,6 +1,7 @@
 """Mission analysis and log replay for underwater gliders.
 
-Every command of ``glider`` is a function here: trim, simulate, replay, compare.
+Every command of ``glider`` is a function here: trim, simulate, replay, compare; those of ``glider coefficients`` are
+in coefficients.
 """
 
 from __future__ import annotations
@@ -9,9 +10,9 @@ import importlib
 from typing import Any
 
 _FUNCTIONS = {"simulate": "glidercli.simulation", "replay": "glidercli.logio"}
-_ROOMS = ("trim", "compare")  # rooms of the same name as their function; calling the room calls the function
+_ROOMS = ("trim", "compare", "coefficients")  # calling trim or compare calls the function of that name
 
-__all__ = ["compare", "replay", "simulate", "trim"]
+__all__ = ["coefficients", "compare", "replay", "simulate", "trim"]
 
 
 def __getattr__(name: str) -> Any:

@@ -8,18 +8,19 @@ from conftest import Run
 import glidercli
 
 COMMANDS = ("trim", "simulate", "replay", "compare")
+COEFFICIENTS = ("added-mass", "cases", "fit", "estimate")
 
 
 def test_help_names_every_command(glider: Run) -> None:
     done = glider("--help")
     assert done.returncode == 0
-    for command in (*COMMANDS, "vehicles", "missions"):
+    for command in (*COMMANDS, "coefficients", "vehicles", "missions"):
         assert command in done.stdout
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-def test_each_command_has_help(glider: Run, command: str) -> None:
-    done = glider(command, "--help")
+@pytest.mark.parametrize("command", [(name,) for name in COMMANDS] + [("coefficients", name) for name in COEFFICIENTS])
+def test_each_command_has_help(glider: Run, command: tuple[str, ...]) -> None:
+    done = glider(*command, "--help")
     assert done.returncode == 0
     for option in ("--json", "--quiet", "--force", "--debug"):
         assert option in done.stdout
