@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from glidercli.coefficients.case_table import cases
+from glidercli.coefficients.flows.case_table import cases
 from glidercli.model import Parameters
 from glidercli.model.hydrodynamics import in_flow_frame, rotation_body_flow
 from glidercli.vehicle import load_vehicle

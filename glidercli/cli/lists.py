@@ -27,7 +27,7 @@ def missions(json: Json = False, quiet: Quiet = False, debug: Debug = False) -> 
 
 def geometries(json: Json = False, quiet: Quiet = False, debug: Debug = False) -> None:
     """List the shipped geometries: name, two spaces, description."""
-    from glidercli.coefficients.geometry import load_geometry, shipped_geometries
+    from glidercli.coefficients.shape.geometry import load_geometry, shipped_geometries
 
     _show({name: load_geometry(name)[0].description for name in shipped_geometries()}, "geometries", json)
 

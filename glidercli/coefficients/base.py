@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from glidercli.coefficients.fitting import SYMBOLS
+from glidercli.coefficients.forces.fitting import SYMBOLS
 from glidercli.errors import InputError
 from glidercli.files import read_toml
 from glidercli.units import DEGREE

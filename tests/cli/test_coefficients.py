@@ -14,7 +14,7 @@ import pytest
 from conftest import Run
 from made_forces import FLOW, SIZE, forces_of
 
-from glidercli.coefficients.case_table import COLUMNS
+from glidercli.coefficients.flows.case_table import COLUMNS
 from glidercli.model import Parameters
 from glidercli.trim import trim
 from glidercli.vehicle import load_vehicle

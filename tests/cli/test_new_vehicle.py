@@ -13,7 +13,7 @@ import pytest
 from conftest import ROOT, Run
 from made_forces import CASE, FLOW, forces_of
 
-from glidercli.coefficients.munk import of_added_mass
+from glidercli.coefficients.forces.munk import of_added_mass
 from glidercli.model import parameters
 from glidercli.model.hydrodynamics import rotation_body_flow
 from glidercli.vehicle import load_vehicle

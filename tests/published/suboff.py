@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from glidercli.coefficients.geometry import Geometry, HullShape, Surface
+from glidercli.coefficients.shape.geometry import Geometry, HullShape, Surface
 
 FOOT = 0.3048
 LENGTH = 14.291667 * FOOT

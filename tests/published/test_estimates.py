@@ -13,13 +13,13 @@ import pytest
 from suboff import DENSITY, LENGTH, MEASURED, RESISTANCE, REYNOLDS, SPEED, WETTED, suboff
 
 from glidercli import trim
-from glidercli.coefficients.added_mass import added_mass
+from glidercli.coefficients.added.added_mass import added_mass
 from glidercli.coefficients.base import read_base
-from glidercli.coefficients.bounds import Bounds
-from glidercli.coefficients.estimate import Estimated, estimate
-from glidercli.coefficients.estimate_output import vehicle_text
-from glidercli.coefficients.friction import wetted_area
-from glidercli.coefficients.geometry import load_geometry
+from glidercli.coefficients.handbook.bounds import Bounds
+from glidercli.coefficients.handbook.estimate import Estimated, estimate
+from glidercli.coefficients.handbook.friction import wetted_area
+from glidercli.coefficients.handbook.output import vehicle_text
+from glidercli.coefficients.shape.geometry import load_geometry
 from glidercli.vehicle import Vehicle, load_vehicle
 
 HALF = DENSITY / 2.0

@@ -34,12 +34,12 @@ def added_mass(
 ) -> None:
     """Added mass and inertia of hull, wings and fins about the centre of buoyancy, as section 2.5 of the paper."""
     from glidercli.cli.answers import give, not_whole, wanted
-    from glidercli.coefficients.added_mass import added_mass as estimated
-    from glidercli.coefficients.added_mass import answer, terms_of
-    from glidercli.coefficients.added_mass_text import text
+    from glidercli.coefficients.added.added_mass import added_mass as estimated
+    from glidercli.coefficients.added.added_mass import answer, terms_of
+    from glidercli.coefficients.added.rest import rest
+    from glidercli.coefficients.added.text import text
     from glidercli.coefficients.base import read_base
-    from glidercli.coefficients.geometry import load_geometry
-    from glidercli.coefficients.rest import rest
+    from glidercli.coefficients.shape.geometry import load_geometry
     from glidercli.files import check_not_inputs
     from glidercli.keeping import TABLES
     from glidercli.pictures import PICTURES

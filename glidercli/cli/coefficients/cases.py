@@ -48,9 +48,9 @@ def cases(
     """The CFD cases that the fit needs: Table 2 of the paper, with velocities, rates and the flow domain."""
     from glidercli.cli.answers import give, wanted
     from glidercli.coefficients.base import read_base
-    from glidercli.coefficients.case_table import RADII
-    from glidercli.coefficients.case_table import cases as case_table
-    from glidercli.coefficients.case_text import text
+    from glidercli.coefficients.flows.case_table import RADII
+    from glidercli.coefficients.flows.case_table import cases as case_table
+    from glidercli.coefficients.flows.text import text
     from glidercli.errors import InputError
     from glidercli.files import check_not_inputs
     from glidercli.keeping import TABLES, Kept, plain
@@ -85,7 +85,7 @@ def _water(
         return given
     if len(given) == 2:
         raise UsageError("--temperature gives density and viscosity; leave it out, or one of --density, --viscosity")
-    from glidercli.coefficients.reynolds import seawater_viscosity
+    from glidercli.coefficients.flows.reynolds import seawater_viscosity
     from glidercli.ocean import seawater
 
     practical = 35.0 if salinity is None else salinity

@@ -47,10 +47,10 @@ def estimate(
 
     from glidercli.cli.answers import give, not_whole, wanted
     from glidercli.coefficients.base import read_base
-    from glidercli.coefficients.estimate import FITTED, estimate
-    from glidercli.coefficients.estimate_output import answer, vehicle_text
-    from glidercli.coefficients.estimate_text import text
-    from glidercli.coefficients.geometry import load_geometry
+    from glidercli.coefficients.handbook.estimate import FITTED, estimate
+    from glidercli.coefficients.handbook.output import answer, vehicle_text
+    from glidercli.coefficients.handbook.text import text
+    from glidercli.coefficients.shape.geometry import load_geometry
     from glidercli.errors import InputError
     from glidercli.files import check_not_inputs
     from glidercli.keeping import TABLES

@@ -54,10 +54,10 @@ def fit(
     """Coefficients of eq. (20) from forces, by least squares in the order of section 3.3, with standard errors."""
     from glidercli.cli.answers import give, not_whole, wanted
     from glidercli.cli.printing import finite
-    from glidercli.coefficients.fit_figure import figure
-    from glidercli.coefficients.new_vehicle import new_vehicle
-    from glidercli.coefficients.result import fit as fitted
-    from glidercli.coefficients.telling import columns, document, text
+    from glidercli.coefficients.forces.figure import figure
+    from glidercli.coefficients.forces.new_vehicle import new_vehicle
+    from glidercli.coefficients.forces.result import fit as fitted
+    from glidercli.coefficients.forces.telling import columns, document, text
     from glidercli.errors import UsageError
     from glidercli.files import check_not_inputs, readable_file
     from glidercli.keeping import TABLES, Kept

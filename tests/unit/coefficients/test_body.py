@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from glidercli.coefficients.body import crossflow_drag, crosswise, separation
-from glidercli.coefficients.geometry import HullShape
-from glidercli.coefficients.spheroid import spheroid
+from glidercli.coefficients.added.spheroid import spheroid
+from glidercli.coefficients.handbook.body import crossflow_drag, crosswise, separation
+from glidercli.coefficients.shape.geometry import HullShape
 
 SPHEROID = HullShape(length=2.0, diameter=0.2)
 VOLUME = 4.0 / 3.0 * math.pi * 0.01

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from glidercli.coefficients.case_table import COLUMNS, cases
-from glidercli.coefficients.reynolds import PAPER_VISCOSITY, reynolds_number, seawater_viscosity, turbulence
+from glidercli.coefficients.flows.case_table import COLUMNS, cases
+from glidercli.coefficients.flows.reynolds import PAPER_VISCOSITY, reynolds_number, seawater_viscosity, turbulence
 from glidercli.errors import InputError
 from glidercli.vehicle import load_vehicle
 

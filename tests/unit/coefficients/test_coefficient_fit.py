@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 from made_forces import BODY, FLOW, SIZE, forces_of, in_body, table_2, write
 from scipy import stats
 
-from glidercli.coefficients.case_table import cases
-from glidercli.coefficients.fitting import SYMBOLS, fit_forces
-from glidercli.coefficients.force_table import read_forces
-from glidercli.coefficients.munk import of_added_mass
-from glidercli.coefficients.result import fit
+from glidercli.coefficients.flows.case_table import cases
+from glidercli.coefficients.forces.fitting import SYMBOLS, fit_forces
+from glidercli.coefficients.forces.munk import of_added_mass
+from glidercli.coefficients.forces.result import fit
+from glidercli.coefficients.forces.table import read_forces
 from glidercli.model import parameters
 from glidercli.model.equations import wrench
 from glidercli.model.mass import Placement, momentum

@@ -7,10 +7,10 @@ import pytest
 from test_strips import remus
 
 from glidercli import trim
-from glidercli.coefficients.added_mass import added_mass
-from glidercli.coefficients.estimate import MUNK, SPEED, estimate
-from glidercli.coefficients.geometry import Geometry, HullShape, Surface, load_geometry
-from glidercli.coefficients.reynolds import PAPER_VISCOSITY
+from glidercli.coefficients.added.added_mass import added_mass
+from glidercli.coefficients.flows.reynolds import PAPER_VISCOSITY
+from glidercli.coefficients.handbook.estimate import MUNK, SPEED, estimate
+from glidercli.coefficients.shape.geometry import Geometry, HullShape, Surface, load_geometry
 from glidercli.errors import InputError
 from glidercli.model import Controls, parameters
 from glidercli.model.equations import equilibrium

@@ -3,8 +3,8 @@
 import numpy as np
 from made_forces import FLOW, forces_of, table_2, write
 
-from glidercli.coefficients.fit_figure import figure
-from glidercli.coefficients.result import fit
+from glidercli.coefficients.forces.figure import figure
+from glidercli.coefficients.forces.result import fit
 
 
 def titles(drawing):

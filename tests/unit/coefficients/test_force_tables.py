@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from made_forces import BODY, FLOW, forces_of, in_body, table_2, write
 
-from glidercli.coefficients.force_table import read_forces
-from glidercli.coefficients.result import fit
+from glidercli.coefficients.forces.result import fit
+from glidercli.coefficients.forces.table import read_forces
 from glidercli.errors import InputError, UsageError
 
 

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from glidercli.coefficients.friction import friction, hull_form, laminar, profile_form, turbulent, wetted_area
-from glidercli.coefficients.geometry import HullShape
+from glidercli.coefficients.handbook.friction import friction, hull_form, laminar, profile_form, turbulent, wetted_area
+from glidercli.coefficients.shape.geometry import HullShape
 
 
 def test_plates():

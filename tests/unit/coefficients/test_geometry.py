@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from glidercli.coefficients.added_mass import added_mass
-from glidercli.coefficients.geometry import load_geometry, shipped_geometries
+from glidercli.coefficients.added.added_mass import added_mass
+from glidercli.coefficients.shape.geometry import load_geometry, shipped_geometries
 from glidercli.errors import InputError
 
 HEAD = 'name = "mine"\ndescription = "a test"\nreference = "none"\n'

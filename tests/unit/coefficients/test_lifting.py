@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from glidercli.coefficients.geometry import HullShape, Surface
-from glidercli.coefficients.lifting import SECTION, lift_slope, lifting, one_sided
+from glidercli.coefficients.handbook.lifting import SECTION, lift_slope, lifting, one_sided
+from glidercli.coefficients.shape.geometry import HullShape, Surface
 
 SLENDER = HullShape(stations=(2.0, 0.0, -2.0), radii=(1e-4, 1e-4, 1e-4))  # a needle: no hull at all
 HULL = HullShape(stations=(1.0, 0.9, -0.9, -1.0), radii=(0.0, 0.1, 0.1, 0.0))

@@ -5,7 +5,7 @@ import pytest
 from made_forces import FLOW, SIZE, forces_of, table_2, write
 
 from glidercli.coefficients import fit
-from glidercli.coefficients.misfits import misfits
+from glidercli.coefficients.forces.misfits import misfits
 from glidercli.errors import InputError
 from glidercli.model import parameters
 from glidercli.vehicle import load_vehicle

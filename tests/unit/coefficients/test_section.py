@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from glidercli.coefficients.section import section
+from glidercli.coefficients.added.section import section
 
 
 def test_closed_forms():

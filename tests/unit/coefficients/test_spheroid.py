@@ -3,7 +3,7 @@
 import pytest
 from scipy.integrate import quad
 
-from glidercli.coefficients.spheroid import spheroid
+from glidercli.coefficients.added.spheroid import spheroid
 
 
 def by_integrals(a, b):

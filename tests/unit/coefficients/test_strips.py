@@ -5,11 +5,11 @@ import dataclasses
 import numpy as np
 import pytest
 
-from glidercli.coefficients.added_mass import MODEL, added_mass, terms_of
+from glidercli.coefficients.added.added_mass import MODEL, added_mass, terms_of
+from glidercli.coefficients.added.rest import rest
+from glidercli.coefficients.added.strips import Terms, _sections, end_factor, hull_strips
 from glidercli.coefficients.base import read_base
-from glidercli.coefficients.geometry import Geometry, HullShape, Surface, load_geometry
-from glidercli.coefficients.rest import rest
-from glidercli.coefficients.strips import Terms, _sections, end_factor, hull_strips
+from glidercli.coefficients.shape.geometry import Geometry, HullShape, Surface, load_geometry
 
 HULL = HullShape(length=1.99, diameter=0.22)
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from glidercli.coefficients.base import Base
-from glidercli.coefficients.fitting import SYMBOLS
-from glidercli.coefficients.result import Result, impossible
+from glidercli.coefficients.forces.fitting import SYMBOLS
+from glidercli.coefficients.forces.result import Result, impossible
 from glidercli.errors import InputError
 from glidercli.vehicle.writing import Number, revised
 

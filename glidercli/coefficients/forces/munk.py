@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.coefficients.force_table import Forces, to_body
+from glidercli.coefficients.forces.table import Forces, to_body
 from glidercli.vehicle.vehicle import AddedMass
 
 __all__ = ["munk_slopes", "of_added_mass", "without_added_mass"]

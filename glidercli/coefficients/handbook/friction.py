@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 
-from glidercli.coefficients.bounds import Bounds
-from glidercli.coefficients.geometry import HullShape
+from glidercli.coefficients.handbook.bounds import Bounds
+from glidercli.coefficients.shape.geometry import HullShape
 
 __all__ = [
     "LAMINAR_TO", "REYNOLDS", "TURBULENT_FROM", "friction", "hull_form", "laminar", "profile_form", "turbulent",

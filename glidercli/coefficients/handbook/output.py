@@ -9,7 +9,7 @@ import dataclasses
 from typing import Any
 
 from glidercli.coefficients.base import Base
-from glidercli.coefficients.estimate import Coefficient, Estimated
+from glidercli.coefficients.handbook.estimate import Coefficient, Estimated
 from glidercli.keeping import Kept
 from glidercli.vehicle.writing import Number, revised
 
@@ -95,7 +95,7 @@ def _note(found: Estimated, symbol: str) -> str:
 
 def answer(found: Estimated, base: Base | None, vehicle: str = "") -> Kept:
     """The estimates ready to be kept. vehicle : text of a vehicle file, or ""."""
-    from glidercli.coefficients.estimate_figure import figure
+    from glidercli.coefficients.handbook.figure import figure
 
     table = rows(found, base)
     columns = {name: [row[name] for row in table] for name in table[0]}

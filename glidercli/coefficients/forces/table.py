@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.coefficients.case_table import SETS
-from glidercli.coefficients.force_columns import BODY_FORCES, BODY_MOMENTS, FLOW, Column, columns_of, lacking, spelled
+from glidercli.coefficients.flows.case_table import SETS
+from glidercli.coefficients.forces.columns import BODY_FORCES, BODY_MOMENTS, FLOW, Column, columns_of, lacking, spelled
 from glidercli.errors import InputError
 from glidercli.ocean.source import read_text
 from glidercli.ocean.table import Table, parse_table

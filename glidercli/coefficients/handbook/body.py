@@ -23,9 +23,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.coefficients.bounds import Bounds
-from glidercli.coefficients.geometry import HullShape
-from glidercli.coefficients.spheroid import spheroid
+from glidercli.coefficients.added.spheroid import spheroid
+from glidercli.coefficients.handbook.bounds import Bounds
+from glidercli.coefficients.shape.geometry import HullShape
 
 __all__ = ["Crosswise", "crossflow_drag", "crosswise", "separation"]
 

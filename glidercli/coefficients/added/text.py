@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from glidercli.coefficients.added_mass import MODEL, Estimate
-from glidercli.coefficients.rest import Rest
-from glidercli.coefficients.strips import Terms
+from glidercli.coefficients.added.added_mass import MODEL, Estimate
+from glidercli.coefficients.added.rest import Rest
+from glidercli.coefficients.added.strips import Terms
 
 __all__ = ["text"]
 

@@ -18,10 +18,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from glidercli.coefficients.bounds import Bounds
-from glidercli.coefficients.geometry import HullShape, Surface
-from glidercli.coefficients.planform import root
-from glidercli.coefficients.section import section
+from glidercli.coefficients.added.section import section
+from glidercli.coefficients.handbook.bounds import Bounds
+from glidercli.coefficients.shape.geometry import HullShape, Surface
+from glidercli.coefficients.shape.planform import root
 
 __all__ = ["Lifting", "lift_slope", "lifting", "one_sided"]
 

@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from glidercli.coefficients.geometry import Geometry, HullShape
-from glidercli.coefficients.planform import middle, root
-from glidercli.coefficients.spheroid import spheroid
-from glidercli.coefficients.strips import Terms, hull_strips, surface_strips
+from glidercli.coefficients.added.spheroid import spheroid
+from glidercli.coefficients.added.strips import Terms, hull_strips, surface_strips
+from glidercli.coefficients.shape.geometry import Geometry, HullShape
+from glidercli.coefficients.shape.planform import middle, root
 from glidercli.keeping import Kept
 
 if TYPE_CHECKING:
+    from glidercli.coefficients.added.rest import Rest
     from glidercli.coefficients.base import Base
-    from glidercli.coefficients.rest import Rest
     from glidercli.vehicle.writing import Number
 
 __all__ = ["MODEL", "Estimate", "Row", "added_mass", "answer", "hull_volume", "terms_of"]
@@ -162,7 +162,7 @@ def terms_of(base: Base) -> tuple[str, Terms] | None:
 
 def answer(found: Estimate, beside: tuple[str, Terms] | None, left: Rest | None, vehicle: str) -> Kept:
     """The estimate ready to be kept. vehicle : text of a vehicle file, or ""."""
-    from glidercli.coefficients.shape_figure import draw_shape
+    from glidercli.coefficients.shape.figure import draw_shape
 
     rows: dict[str, list[Any]] = {"symbol": [row.symbol for row in MODEL], "unit": [row.unit for row in MODEL]}
     for column, which in (("strips", False), ("corrected", True)):

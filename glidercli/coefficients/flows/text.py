@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from glidercli.coefficients.case_table import CaseTable
+from glidercli.coefficients.flows.case_table import CaseTable
 
 __all__ = ["text"]
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from glidercli.coefficients.geometry import HullShape, Surface
+    from glidercli.coefficients.shape.geometry import HullShape, Surface
 
 __all__ = ["middle", "overlap", "root"]
 

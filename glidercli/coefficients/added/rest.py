@@ -14,8 +14,8 @@ import dataclasses
 import math
 from typing import Any
 
-from glidercli.coefficients.geometry import Geometry
-from glidercli.coefficients.strips import Terms
+from glidercli.coefficients.added.strips import Terms
+from glidercli.coefficients.shape.geometry import Geometry
 
 __all__ = ["Accounted", "Plane", "Rest", "rest"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from glidercli.coefficients.estimate import Estimated
+from glidercli.coefficients.handbook.estimate import Estimated
 from glidercli.pictures import COLOURS, WIDTH
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ def figure(found: Estimated, base: Base | None) -> Figure:
     from matplotlib.figure import Figure
     from matplotlib.ticker import FuncFormatter
 
-    from glidercli.coefficients.estimate_output import of_base
+    from glidercli.coefficients.handbook.output import of_base
 
     if base is not None and not base.coefficients:
         base = None

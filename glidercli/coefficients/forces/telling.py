@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from glidercli.coefficients.fitting import SYMBOLS, Fitted
-from glidercli.coefficients.result import Result
+from glidercli.coefficients.forces.fitting import SYMBOLS, Fitted
+from glidercli.coefficients.forces.result import Result
 from glidercli.units import DEGREE
 
 __all__ = ["columns", "document", "text"]

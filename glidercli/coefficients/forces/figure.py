@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glidercli import pictures
-from glidercli.coefficients.fitting import Fitted
-from glidercli.coefficients.result import Result
+from glidercli.coefficients.forces.fitting import Fitted
+from glidercli.coefficients.forces.result import Result
 from glidercli.units import DEGREE
 
 if TYPE_CHECKING:

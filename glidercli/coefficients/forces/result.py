@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from glidercli.coefficients.base import Base, read_base
-from glidercli.coefficients.fitting import SYMBOLS, ZERO_ANGLE, Fit, fit_forces
-from glidercli.coefficients.force_table import Forces, read_forces
-from glidercli.coefficients.munk import munk_slopes, without_added_mass
-from glidercli.coefficients.repeats import repeats
+from glidercli.coefficients.forces.fitting import SYMBOLS, ZERO_ANGLE, Fit, fit_forces
+from glidercli.coefficients.forces.munk import munk_slopes, without_added_mass
+from glidercli.coefficients.forces.repeats import repeats
+from glidercli.coefficients.forces.table import Forces, read_forces
 from glidercli.errors import InputError, UsageError
 
 __all__ = ["Result", "fit", "impossible"]

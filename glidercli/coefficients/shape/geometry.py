@@ -194,7 +194,7 @@ class Geometry:
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        from glidercli.coefficients.planform import overlap, root
+        from glidercli.coefficients.shape.planform import overlap, root
 
         faults = [
             f"surface.{name}: the name stands for another part; {', '.join(WHOLE)} are taken"

@@ -18,9 +18,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.coefficients.geometry import Geometry, HullShape, Surface
-from glidercli.coefficients.planform import middle, root
-from glidercli.coefficients.section import section
+from glidercli.coefficients.added.section import section
+from glidercli.coefficients.shape.geometry import Geometry, HullShape, Surface
+from glidercli.coefficients.shape.planform import middle, root
 
 __all__ = ["Terms", "end_factor", "hull_strips", "surface_strips"]
 

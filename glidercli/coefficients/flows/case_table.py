@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.coefficients.reynolds import PAPER_DENSITY, PAPER_VISCOSITY, reynolds_number, turbulence
+from glidercli.coefficients.flows.reynolds import PAPER_DENSITY, PAPER_VISCOSITY, reynolds_number, turbulence
 from glidercli.errors import InputError
 from glidercli.frames import times
 from glidercli.model.hydrodynamics import rotation_body_flow, velocity_from_flow

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from glidercli.coefficients.base import Base
-from glidercli.coefficients.estimate import Estimated
-from glidercli.coefficients.estimate_output import of_base
+from glidercli.coefficients.handbook.estimate import Estimated
+from glidercli.coefficients.handbook.output import of_base
 
 __all__ = ["text"]
 

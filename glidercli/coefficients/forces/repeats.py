@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.coefficients.force_columns import FLOW
-from glidercli.coefficients.force_table import Forces
+from glidercli.coefficients.forces.columns import FLOW
+from glidercli.coefficients.forces.table import Forces
 from glidercli.errors import InputError
 
 __all__ = ["Repeats", "repeats"]

@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.coefficients.force_columns import FLOW, spelled
-from glidercli.coefficients.force_table import Forces
-from glidercli.coefficients.misfits import misfits
-from glidercli.coefficients.regression import Regression, regress
+from glidercli.coefficients.forces.columns import FLOW, spelled
+from glidercli.coefficients.forces.misfits import misfits
+from glidercli.coefficients.forces.regression import Regression, regress
+from glidercli.coefficients.forces.table import Forces
 from glidercli.errors import InputError
 from glidercli.units import DEGREE
 

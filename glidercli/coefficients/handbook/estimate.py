@@ -19,15 +19,15 @@ import dataclasses
 import math
 from typing import Any, NamedTuple
 
-from glidercli.coefficients.added_mass import added_mass, hull_volume
-from glidercli.coefficients.body import crosswise
-from glidercli.coefficients.bounds import Bounds, exactly
-from glidercli.coefficients.friction import REYNOLDS, friction, hull_form, profile_form, wetted_area
-from glidercli.coefficients.geometry import Geometry, Surface
-from glidercli.coefficients.lifting import SHIFT, Lifting, lifting
-from glidercli.coefficients.munk import munk_slopes
-from glidercli.coefficients.reynolds import PAPER_VISCOSITY
-from glidercli.coefficients.spheroid import spheroid
+from glidercli.coefficients.added.added_mass import added_mass, hull_volume
+from glidercli.coefficients.added.spheroid import spheroid
+from glidercli.coefficients.flows.reynolds import PAPER_VISCOSITY
+from glidercli.coefficients.forces.munk import munk_slopes
+from glidercli.coefficients.handbook.body import crosswise
+from glidercli.coefficients.handbook.bounds import Bounds, exactly
+from glidercli.coefficients.handbook.friction import REYNOLDS, friction, hull_form, profile_form, wetted_area
+from glidercli.coefficients.handbook.lifting import SHIFT, Lifting, lifting
+from glidercli.coefficients.shape.geometry import Geometry, Surface
 from glidercli.errors import InputError
 from glidercli.vehicle.vehicle import AddedMass
 

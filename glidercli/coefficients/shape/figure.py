@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from glidercli.coefficients.added_mass import MODEL, Estimate
-from glidercli.coefficients.geometry import Geometry, Surface
-from glidercli.coefficients.planform import root
-from glidercli.coefficients.strips import Terms
+from glidercli.coefficients.added.added_mass import MODEL, Estimate
+from glidercli.coefficients.added.strips import Terms
+from glidercli.coefficients.shape.geometry import Geometry, Surface
+from glidercli.coefficients.shape.planform import root
 from glidercli.pictures import COLOURS, WIDTH
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from glidercli.coefficients.case_table import COLUMNS
+from glidercli.coefficients.flows.case_table import COLUMNS
 from glidercli.errors import InputError
 from glidercli.ocean.source import listed
 from glidercli.ocean.table import Table

@@ -1,0 +1,1 @@
+"""What water does a shape drag along? Strips, sections, the exact spheroid (section 2.5)."""

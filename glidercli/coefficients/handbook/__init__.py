@@ -1,0 +1,1 @@
+"""Which coefficients would a shape have? Handbook formulas, without any forces."""

@@ -1,0 +1,1 @@
+"""What shape is a vehicle, and where do its surfaces lie?"""
