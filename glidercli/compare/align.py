@@ -17,6 +17,7 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from glidercli.compare.first import First
 from glidercli.dives import LEAST_RANGE, phases
 from glidercli.errors import InputError
 from glidercli.log import Channel, Log
@@ -96,9 +97,10 @@ def align(
         raise InputError("offset", f"{offset:g} s; allowed: {-MOST_OFFSET:g} to {MOST_OFFSET:g}")
     if method == "none":
         return Alignment(method, offset, offset)
+    word = First(measured.origin).word
     if method == "xcorr":
-        return _closest(_curve(measured, "measured"), _curve(simulated, "simulated"), offset, max_gap)
-    first, second = _event(measured, "measured", method), _event(simulated, "simulated", method)
+        return _closest(_curve(measured, word), _curve(simulated, "simulated"), offset, max_gap)
+    first, second = _event(measured, word, method), _event(simulated, "simulated", method)
     shift = (first.time_ns - second.time_ns) / 10**9  # division keeps whole seconds whole
     apart = None if first.apart is None or second.apart is None else first.apart + second.apart
     return Alignment(method, shift + offset, offset, None if apart is None else 0.5 * apart)

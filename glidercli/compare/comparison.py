@@ -13,6 +13,7 @@ from glidercli.compare.by_depth import Band, by_depth
 from glidercli.compare.errors import Errors, statistics
 from glidercli.compare.events import EventPair, events_of, located, paired
 from glidercli.compare.facts import Facts
+from glidercli.compare.first import First
 from glidercli.compare.outcomes import Outcome, outcomes
 from glidercli.compare.ranking import Ranked, ranked
 from glidercli.compare.tracks import TrackErrors, tracks
@@ -98,6 +99,11 @@ class Comparison:
         return "reconstruction" if touched else "simulated"
 
     @property
+    def first(self) -> First:
+        """What words call the first side; see first.py."""
+        return First(self.measured.origin)
+
+    @property
     def ranking(self) -> tuple[Ranked, ...]:
         """The simulations from the closest on; see ranking.py."""
         return ranked(self.runs, self.chosen)
@@ -133,14 +139,16 @@ def compare(
     max_gap : s, positive: simulated samples further apart are not interpolated between.
     channels : names, column names or patterns (mass_*) of the channels to compare; default: all that both sides have.
     depth_band : m, positive: width of the bands of depth that errors are told by; default: one that makes a few.
-    names : what to call the measured side and each simulated log; default: "measured" and "simulated".
+    names : what to call the measured side and each simulated log; default: "measured" and "simulated";
+        "first" where that log is simulated or a reconstruction.
 
     Raises InputError when nothing can be compared: no common channel, no measured sample within the simulated ones.
     """
     logs = (simulated,) if isinstance(simulated, Log) else tuple(simulated)
     if not logs:
         raise InputError("compare", "no simulated log; at least one is needed")
-    labels = tuple(names) if names else ("measured", *_numbered(len(logs)))
+    first = First("published" if isinstance(measured, Facts) else measured.origin)
+    labels = tuple(names) if names else (first.word, *_numbered(len(logs)))
     if len(labels) != len(logs) + 1:
         raise InputError("names", f"{len(labels)} for {len(logs) + 1} logs; one each is needed")
     chosen = matching(channels) if channels else None
@@ -221,16 +229,16 @@ def _run(
         notes=(
             *_not_measured(measured, measured_name),
             *_other_zeros(measured, simulated, errors),
-            *_no_depth(without_depth),
+            *_no_depth(without_depth, First(measured.origin)),
         ),
     )
 
 
 def _not_measured(measured: Log, name: str) -> Iterator[str]:
-    """What the word measured means where the first log is no recording."""
+    """What the errors are against where the first log is no recording."""
     if measured.origin in ("simulated", "reconstruction"):
         what = "is simulated" if measured.origin == "simulated" else "is a reconstruction"
-        yield f"{name} {what}, not measured; where the word measured stands it means this log"
+        yield f"{name} {what}; the errors are against it, not against a recording"
 
 
 def _other_zeros(measured: Log, simulated: Log, channels: Iterable[str]) -> Iterator[str]:
@@ -239,17 +247,19 @@ def _other_zeros(measured: Log, simulated: Log, channels: Iterable[str]) -> Iter
         zeros = [log.metadata.get(f"{channel}_zero", "") for log in (measured, simulated)]
         if zeros[0] != zeros[1]:
             told = "; ".join(
-                f"{side}: {zero}" for side, zero in zip(("measured", "simulated"), zeros, strict=True) if zero
+                f"{side}: {zero}"
+                for side, zero in zip((First(measured.origin).word, "simulated"), zeros, strict=True)
+                if zero
             )
             named = channel.replace("_", " ")
             yield f"{named} is counted from different zeros ({told}): its errors hold what lies between them"
 
 
-def _no_depth(counts: Mapping[str, int]) -> Iterator[str]:
+def _no_depth(counts: Mapping[str, int], first: First) -> Iterator[str]:
     """Samples that are in no band of depth."""
     if counts:
         told = ", ".join(f"{count} of {name.replace('_', ' ')}" for name, count in counts.items())
-        yield f"samples without a measured depth at their time are in no band of depth: {told}"
+        yield f"samples without a {first.of('depth')} at their time are in no band of depth: {told}"
 
 
 def _part(error: Residuals, intervals: tuple[Interval, ...], leg: str) -> Errors:
@@ -276,7 +286,8 @@ def _nothing(
     """Why no sample could be compared, and what could help."""
     first, last = (f"{to_second(log.start_ns)} to {to_second(log.end_ns)}" for log in (simulated, measured))
     if any(error.gap for error in errors.values()):
-        return f"every measured sample lies outside or in a gap of more than {max_gap:g} s; try a longer --max-gap"
+        sample = First(measured.origin).of("sample")
+        return f"every {sample} lies outside or in a gap of more than {max_gap:g} s; try a longer --max-gap"
     return (
         f"does not overlap in time: {first} UTC after a shift of {shift:g} s, {name} has {last} UTC; "
         "try --align start, --align xcorr or --offset"

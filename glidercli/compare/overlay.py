@@ -42,7 +42,7 @@ def overlay(comparison: Comparison, provenance: Mapping[str, Any]) -> Overlay:
         raise InputError(comparison.measured.name, "holds published values, which are no recording to overlay")
     record = {**provenance, "origins": document(comparison)["origins"]}
     log = comparison.against.with_metadata(provenance=json.dumps(record, sort_keys=True))
-    beside = tuple(_told(run, comparison.max_gap) for run in comparison.runs)
+    beside = tuple(_told(run, comparison) for run in comparison.runs)
     names = _short([comparison.measured.name, *(run.side.name for run in comparison.runs)])
     return Overlay(log, beside, names, tuple(run.residuals for run in comparison.runs))
 
@@ -53,12 +53,14 @@ def _short(names: Sequence[str]) -> tuple[str, ...]:
     return last if all(last) and len(set(last)) == len(last) else tuple(names)
 
 
-def _told(run: Run, max_gap: float) -> Log:
+def _told(run: Run, comparison: Comparison) -> Log:
     """A simulated log, with what was done to it."""
-    notes = [
-        f"errors are simulated less measured at measured times, not across gaps of more than {max_gap:g} s", *run.notes
-    ]  # fmt: skip
-    told = {"comparison_note": "; ".join(notes)}
+    first = comparison.first
+    how = (
+        f"errors are simulated less {first.noun} at {first.of('times')}, not across gaps of more than "
+        f"{comparison.max_gap:g} s"
+    )
+    told = {"comparison_note": "; ".join((how, *run.notes))}
     if run.alignment is not None and run.alignment.shift:
         certainty = f"; {run.alignment.note}" if run.alignment.note else ""
         told["clock_note"] = f"shifted by {run.alignment.shift:+.3f} s (align {run.alignment.method}){certainty}"

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from glidercli.compare.errors import Errors
 from glidercli.compare.events import EventPair
 from glidercli.compare.facts import FLIGHT, Facts
+from glidercli.compare.first import First
 from glidercli.compare.tracks import TrackErrors
 from glidercli.units import NANOSECOND
 from glidercli.utc import to_second
@@ -43,13 +44,13 @@ def _run(comparison: Comparison, run: Run) -> list[str]:
         if rows:
             lines += ["", f"{title}:", *table(_ERRORS, [_row(name, errors) for name, errors in rows.items()], 2)]
     if len(run.bands) > 1:
-        lines += ["", "rmse by measured depth, m:", *_bands(run)]
+        lines += ["", f"rmse by {comparison.first.of('depth')}, m:", *_bands(run)]
     if run.outcomes:
-        lines += ["", "both flights, over the time that both cover:", *_outcomes(run)]
+        lines += ["", "both flights, over the time that both cover:", *_outcomes(run, comparison.first)]
     if run.track is not None:
         lines += ["", *_track(run.track)]
     if events := [pair for pair in run.events if pair.name in _TOLD and pair.measured and pair.simulated]:
-        lines += ["", "events:", *_events(events)]
+        lines += ["", "events:", *_events(events, comparison.first)]
     return [*lines, "", *(f"Note: {note}." for note in run.notes)] if run.notes else lines
 
 
@@ -74,12 +75,12 @@ def _bands(run: Run) -> list[str]:
     return [*table(head, rows, 2), *([f"{left} deeper bands are in the outputs and in --json."] if left else [])]
 
 
-def _outcomes(run: Run) -> list[str]:
+def _outcomes(run: Run, first: First) -> list[str]:
     rows = [
         [one.name, one.unit, *map(_number, (one.measured, one.simulated, one.difference)), _percent(one.relative)]
         for one in run.outcomes
     ]
-    return table(("figure", "unit", "measured", "simulated", "difference", "relative"), rows, 2)
+    return table(("figure", "unit", first.word, "simulated", "difference", "relative"), rows, 2)
 
 
 def _track(track: TrackErrors) -> list[str]:
@@ -97,7 +98,7 @@ def _track(track: TrackErrors) -> list[str]:
     return lines
 
 
-def _events(pairs: list[EventPair]) -> list[str]:
+def _events(pairs: list[EventPair], first: First) -> list[str]:
     """Those of all events that say how a dive went."""
     rows = []
     for pair in pairs:
@@ -110,7 +111,7 @@ def _events(pairs: list[EventPair]) -> list[str]:
         of_way = None if apart is None or not pair.way else apart / pair.way
         numbers = [*map(_number, (later, *depths, deeper, apart))]
         rows.append([pair.name, to_second(pair.measured.time_ns), *numbers, _percent(of_way)])
-    head = ("event", "measured, UTC", "later, s", "depth, m", "simulated", "deeper, m", "apart, m", "of the way")
+    head = ("event", f"{first.word}, UTC", "later, s", "depth, m", "simulated", "deeper, m", "apart, m", "of the way")
     return table(head, rows, 2)
 
 

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -282,6 +283,21 @@ def test_records_dropped_on_reading_are_counted(tmp_path: Path, logs) -> None:
 
 def test_a_measured_log_on_the_simulated_side_is_said(logs) -> None:
     assert "measured, and stands here as a simulation" in glider(logs[0], logs[0]).stderr
+
+
+def test_a_simulated_first_log_is_not_called_measured(tmp_path: Path) -> None:
+    (tmp_path / "a").mkdir()
+    first, second = write_log(tmp_path / "simulated.csv"), write_log(tmp_path / "a/simulated.csv", deeper=2.0)
+    result = glider("simulated.csv", "a/simulated.csv", "-o", "page.html", "-o", "errors.csv", folder=tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert "measured" not in (result.stdout + result.stderr).lower()
+    assert "Note: simulated.csv is simulated; the errors are against it, not against a recording." in result.stdout
+    shown = re.sub(r"<(script|style)[^>]*>.*?</\1>", "", (tmp_path / "page.html").read_text(), flags=re.DOTALL)
+    shown = re.sub(r'class="[^"]*"', "", shown)  # names of styles are not shown
+    assert "measured" not in shown.lower()
+    notes = json.loads((tmp_path / "errors.csv-metadata.json").read_text())["notes"]
+    assert "measured" not in " ".join(notes)
+    assert json.loads(glider(first, second, "--json").stdout)["origins"]["measured"]["origin"] == "simulated"  # a key
 
 
 def test_a_table_that_lost_its_metadata_is_compared_as_derived(tmp_path: Path, logs) -> None:

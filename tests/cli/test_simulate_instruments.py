@@ -115,7 +115,7 @@ def test_errors_against_the_truth_are_those_of_the_settings(
     assert {"north_m", "u_m_s"} <= set(truth)
     found = glider_json("compare", "truth.csv", "seen.csv")
     assert found["origins"]["measured"]["origin"] == "simulated"
-    assert "truth.csv is simulated, not measured" in found["notes"][0]
+    assert "truth.csv is simulated; the errors are against it" in found["notes"][0]
     errors = found["phases"]["dive"]  # at the surface the pitch jumps, between two samples
     for name, bias, sigma in (("pitch", 1.5, 0.2), ("roll", 0.0, 0.2), ("pressure", 0.0, 0.1)):
         key = next(key for key in errors if key.startswith(name))

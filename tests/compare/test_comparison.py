@@ -9,7 +9,7 @@ import pytest
 from analytic_flights import START_NS, channel, log, vee
 
 import glidercli
-from glidercli.compare import compare, matching, read_facts, write
+from glidercli.compare import compare, matching, overlay, read_facts, write
 from glidercli.errors import InputError, OutputError
 from glidercli.log import Event, Log
 
@@ -148,6 +148,24 @@ def test_a_reconstruction_is_named_everywhere(tmp_path: Path) -> None:
         assert "controls from printed figures" in (tmp_path / f"out.{ending}").read_text()
     assert "reconstruction" in (tmp_path / "out.csv-metadata.json").read_text()
     assert compare(flight(), flight("simulated")).origin == "simulated"
+
+
+def test_messages_and_overlays_do_not_call_a_simulated_first_log_measured() -> None:
+    first, second = flight("simulated"), flight("simulated", depth=1.0)
+    found = compare(first, second)
+    assert found.measured.name == "first"
+    assert compare(flight(), second).measured.name == "measured"
+    (beside,) = overlay(found, {}).beside
+    assert beside.metadata["comparison_note"].startswith(
+        "errors are simulated less the first log at times of the first"
+    )
+    (beside,) = overlay(compare(flight(), second), {}).beside
+    assert beside.metadata["comparison_note"].startswith("errors are simulated less measured at measured times, not")
+    with pytest.raises(InputError, match="the first log has no position"):
+        compare(first, second, align="gps")
+    apart = log(np.array([-500.0, 5000.0]), "simulated", depth=np.zeros(2))
+    with pytest.raises(InputError, match="every sample of the first log lies outside or in a gap of more than 60 s"):
+        compare(first, apart)
 
 
 def test_the_csv(tmp_path: Path) -> None:

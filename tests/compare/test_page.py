@@ -102,6 +102,37 @@ def test_words_and_tables_hold_the_numbers_of_the_document() -> None:
     assert "on climbs of the measured log" in told
 
 
+@pytest.mark.parametrize(("origin", "called"), [("simulated", "Simulated"), ("reconstruction", "A reconstruction")])
+def test_a_first_log_that_is_no_recording_is_not_called_measured(origin: str, called: str) -> None:
+    """Neither in text nor in what is read out, with every kind of table: tracks, gaps, constants, other zeros."""
+    sparse = log(T[:300:100], origin, depth=vee(300.0, 1000.0, 1000.0)(T[:300:100])).channels.values()
+    first = flight(origin, roll=0.0 * T, metadata={"depth_zero": "the rail"}).with_channels(*sparse)
+    runs = [flight("simulated", off, roll=1.0 + 0.0 * T) for off in (2.0, 3.0)]
+    for later in (runs[:1], runs):
+        found = compare(first, later, names=["a.nc", *"bc"[: len(later)]])
+        read = Read(page(found, RECORD))
+        told = words(read)
+        labels = [attributes["aria-label"] for _, attributes in read.elements if attributes.get("aria-label")]
+        for text in (told, " ".join(map(str, labels)), found.text()):
+            assert "measured" not in text.lower()
+        for said in (
+            f"{called} a.nc", "Errors are simulated less the first log", "on dives of the first log", "b: first and simulated",
+            "first: time, UTC", "from the first one", "Constant in the first log", "less first", "samples of the first log of the track",
+            "first is simulated is", "without a depth of the first log", "(first: the rail)", "against it, not against a recording",
+        ):  # fmt: skip
+            assert said in told
+        assert "rmse by depth of the first log, m:" in found.text()
+
+
+def test_a_derived_first_log_is_called_measured_as_a_recording_is() -> None:
+    pages = [
+        words(Read(page(compare(flight(origin), flight("simulated", 2.0)), RECORD)))
+        for origin in ("measured", "derived")
+    ]
+    for said in ("less measured", "measured samples", "on dives of the measured log", "from the measured one"):
+        assert pages[0].count(said) == pages[1].count(said) > 0
+
+
 def test_published_values_with_verdicts_and_places() -> None:
     told = words(Read(page(compare(read_facts(FACTS), flight("simulated", density=1025.0 + 0.0 * T)), RECORD)))
     assert "Published values" in told

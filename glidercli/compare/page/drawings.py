@@ -9,21 +9,16 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from glidercli.compare.facts import Facts
+from glidercli.compare.first import First
 from glidercli.compare.page.html import escaped, flat, number, table
 from glidercli.compare.page.plots import Plots
+from glidercli.compare.page.tables import worded
 from glidercli.log import Log
 
 if TYPE_CHECKING:
     from glidercli.compare.comparison import Comparison
 
 __all__ = ["over_time", "tracks"]
-
-_OTHERS = {
-    "way_m": "level length of the tracks, m",
-    "closure": "simulated from measured place at the last surfacing; relative to the way until then",
-    "skipped": "measured samples of the track left out",
-}
-"""Captions of what is told of a track beside its errors."""
 
 
 def over_time(comparison: Comparison, drawn: Plots) -> str:
@@ -42,7 +37,8 @@ def over_time(comparison: Comparison, drawn: Plots) -> str:
             ("in", "Zoom in"), ("out", "Zoom out"), ("back", "Earlier"), ("on", "Later"), ("all", "Whole time"),
         )
     )  # fmt: skip
-    below = " The lower part of each plot is simulated less measured." if isinstance(comparison.against, Log) else ""
+    less = f" The lower part of each plot is simulated less {comparison.first.noun}."
+    below = less if isinstance(comparison.against, Log) else ""
     bands = " Grey is what was published, with its tolerance." if isinstance(comparison.against, Facts) else ""
     legs = " Dives are shaded." if any(leg["name"] == "dive" for leg in drawn.data["legs"]) else ""
     events = (
@@ -67,7 +63,7 @@ def over_time(comparison: Comparison, drawn: Plots) -> str:
     )
 
 
-def tracks(drawn: Plots, parts: Sequence[Mapping[str, Any]]) -> str:
+def tracks(comparison: Comparison, drawn: Plots, parts: Sequence[Mapping[str, Any]]) -> str:
     """Tracks from above and in three dimensions, and how far apart they are."""
     track = drawn.data["track"]
     text = ""
@@ -106,7 +102,9 @@ def tracks(drawn: Plots, parts: Sequence[Mapping[str, Any]]) -> str:
             f'<div class="controls" role="group" aria-label="View of the tracks"><span class="buttons">{buttons}</span>'
             f"</div></figure></div>\n"
         )
-    return text + "".join(_distances(part["name"], part["track"]) for part in parts if part.get("track"))
+    return text + "".join(
+        _distances(part["name"], part["track"], comparison.first) for part in parts if part.get("track")
+    )
 
 
 def _toggles(comparison: Comparison, drawn: Plots) -> str:
@@ -121,16 +119,23 @@ def _toggles(comparison: Comparison, drawn: Plots) -> str:
     )
 
 
-def _distances(name: str, track: Mapping[str, Any]) -> str:
+def _distances(name: str, track: Mapping[str, Any], first: First) -> str:
     """Tables of how far apart the tracks are."""
     inside = {key: one for key, one in track.items() if isinstance(one, Mapping)}
     errors = [{"track": key, **flat(one)} for key, one in inside.items() if "rmse" in one]
     origin = f" ({track['origin']})" if track.get("origin") else ""
-    text = table(f"{name}: distance of the simulated track from the measured one{origin}", errors)
+    text = table(f"{name}: distance of the simulated track from the {first.word} one{origin}", errors)
     if track.get("relative"):
         text += table(f"{name}: error of the way made good over a time", [flat(row) for row in track["relative"]])
-    others = [{"track": key, **flat(one)} for key, one in inside.items() if "rmse" not in one]
-    return text + "".join(table(f"{name}: {_OTHERS.get(row['track'], row['track'])}", [row]) for row in others)
+    captions = {
+        "way_m": "level length of the tracks, m",
+        "closure": f"simulated from {first.of('place')} at the last surfacing; relative to the way until then",
+        "skipped": f"{first.of('samples')} of the track left out",
+    }
+    others = {key: flat(worded(one, first.word)) for key, one in inside.items() if "rmse" not in one}
+    return text + "".join(
+        table(f"{name}: {captions.get(key, key)}", [{"track": key, **one}]) for key, one in others.items()
+    )
 
 
 def _extents(track: Mapping[str, Any], shorts: Sequence[str]) -> str:

@@ -1,7 +1,8 @@
 """Which curves do the plots of a page show? Plain values for the page's script, thinned and bounded.
 
     zero       UTC of the time axis' zero, ISO 8601; unit: of the time axis, "s" or "h"
-    logs       [{short, colour, measured}]: the logs in the order of ``log`` below; colour counts simulations from 0
+    logs       [{short, colour, measured}]: the logs in the order of ``log`` below; colour counts simulations from 0;
+               measured: it is the first one, which the errors are against
     range      [first, last] of the time axis, or null
     legs       [{name, begin, end}], the dives and climbs of the first log
     panels     [{channel, title, unit, down, lines, errors, bands, events}]
@@ -110,7 +111,7 @@ class _Lines:
 def plots(comparison: Comparison, shorts: Sequence[str]) -> Plots:
     """The plots of a comparison.
 
-    shorts : a short name of each log, the measured one first where there is one.
+    shorts : a short name of each log, that which the errors are against first where there is one.
     """
     from glidercli.compare.page.track import track
 
@@ -222,7 +223,7 @@ def _told(name: str, shorts: Sequence[str], drawn: dict[int, Array], errors: dic
     """The plot in one sentence, for those who do not see it; of all samples, before thinning."""
     unit = unit_of(name)
     parts = [f"{shorts[n]} {_ends(values)}" for n, values in drawn.items()]
-    parts += [f"{shorts[n]} less measured {_ends(one.error)}" for n, one in errors.items()]
+    parts += [f"{shorts[n]} less {shorts[0]} {_ends(one.error)}" for n, one in errors.items()]
     parts += [f"published: {fact}" for fact in dict.fromkeys(band.fact for band in placed if band.channel == name)]
     return f"{name.replace('_', ' ')}{', ' + unit if unit else ''}, against time: {'; '.join(parts)}."
 

@@ -14,7 +14,7 @@ from glidercli.compare.page.html import flat, number, table
 if TYPE_CHECKING:
     from glidercli.compare.comparison import Comparison
 
-__all__ = ["errors", "events", "facts", "outcomes"]
+__all__ = ["errors", "events", "facts", "outcomes", "worded"]
 
 _VERDICTS = {"agrees": "agrees", "agrees, as given": "open", "disagrees": "disagrees", "not simulated": "open"}
 _ERRORS = ("unit", "n", "rmse", "mae", "bias", "std", "max", "correlation", "nrmse")
@@ -55,7 +55,7 @@ def errors(comparison: Comparison, parts: Sequence[Mapping[str, Any]]) -> str:
     """Errors by channel: side by side, over the flight, by phase and by depth; "" for published values."""
     if isinstance(comparison.against, Facts):
         return ""
-    text = ""
+    text, word = "", comparison.first.word
     if len(parts) > 1:
         names = dict.fromkeys(name for part in parts for name in part["channels"])
         rows = []
@@ -74,40 +74,47 @@ def errors(comparison: Comparison, parts: Sequence[Mapping[str, Any]]) -> str:
         name = part["name"]
         for caption, channels in (
             (f"{name}: errors over the whole flight", part["channels"]),
-            (f"{name}: on dives of the measured log", part["phases"]["dive"]),
-            (f"{name}: on climbs of the measured log", part["phases"]["climb"]),
+            (f"{name}: on dives of the {word} log", part["phases"]["dive"]),
+            (f"{name}: on climbs of the {word} log", part["phases"]["climb"]),
         ):
-            text += table(caption, [_row(channel, one) for channel, one in channels.items()])
+            text += table(caption, [_row(channel, one, word) for channel, one in channels.items()])
         for band in part.get("bands") or []:
             caption = f"{name}: from {number(band['from_m'])} to {number(band['to_m'])} m of depth"
-            text += table(caption, [_row(channel, one) for channel, one in band["channels"].items()])
+            text += table(caption, [_row(channel, one, word) for channel, one in band["channels"].items()])
     return text
 
 
-def outcomes(parts: Sequence[Mapping[str, Any]]) -> str:
-    """Figures of the flight, measured and simulated, where the document has them."""
+def outcomes(comparison: Comparison, parts: Sequence[Mapping[str, Any]]) -> str:
+    """Figures of both flights, where the document has them."""
+    word = comparison.first.word
     return "".join(
-        table(f"{part['name']}: measured and simulated", [flat(row) for row in part["outcomes"]])
+        table(f"{part['name']}: {word} and simulated", [flat(worded(row, word)) for row in part["outcomes"]])
         for part in parts
         if part.get("outcomes")
     )
 
 
-def events(parts: Sequence[Mapping[str, Any]]) -> str:
+def events(comparison: Comparison, parts: Sequence[Mapping[str, Any]]) -> str:
     """Events of both logs."""
     text = ""
+    heads = {"measured": comparison.first.word, "simulated": "simulated"}
     for part in parts:
         rows = []
         for one in part["events"]:
             sides = {
-                f"{side}: {head}": (one[side] or {}).get(key)
-                for side in ("measured", "simulated")
+                f"{word}: {head}": (one[side] or {}).get(key)
+                for side, word in heads.items()
                 for key, head in (("time_utc", "time, UTC"), ("depth_m", "depth, m"))
             }
-            more = {key: one[key] for key in one if key not in ("name", "measured", "simulated")}
+            more = {key: one[key] for key in one if key not in ("name", *heads)}
             rows.append({"event": one["name"], **sides, **flat(more)})
         text += table(f"{part['name']}: events in both logs, or in one of them", rows)
     return text
+
+
+def worded(row: Mapping[str, Any], word: str) -> dict[str, Any]:
+    """A row of the document with its key "measured" as the word for the first log, for a head."""
+    return {word if key == "measured" else key: value for key, value in row.items()}
 
 
 def _difference(one: Mapping[str, Any]) -> float | None:
@@ -118,12 +125,12 @@ def _difference(one: Mapping[str, Any]) -> float | None:
     return 0.0 if abs(difference) <= 1e-12 * abs(one["published"]) else difference
 
 
-def _row(channel: str, one: Mapping[str, Any]) -> dict[str, Any]:
+def _row(channel: str, one: Mapping[str, Any], word: str) -> dict[str, Any]:
     found = flat({"channel": channel.replace("_", " "), **{key: one[key] for key in _ERRORS}})
     found["unit"] = _unit(one["unit"])
     found["left out"] = sum(one["skipped"].values())
     if one.get("origins"):
-        found["measured is"], found["simulated is"] = one["origins"]["measured"], one["origins"]["simulated"]
+        found[f"{word} is"], found["simulated is"] = one["origins"]["measured"], one["origins"]["simulated"]
     return found
 
 

@@ -47,10 +47,10 @@ def page(comparison: Comparison, provenance: Mapping[str, Any]) -> str:
         ("summary", "Summary", _summary(comparison, told, parts)),
         ("facts", "Published values", facts(comparison, parts)),
         ("plots", "Plots", over_time(comparison, drawn)),
-        ("track", "Tracks", tracks(drawn, parts)),
+        ("track", "Tracks", tracks(comparison, drawn, parts)),
         ("errors", "Errors", errors(comparison, parts)),
-        ("figures", "Figures of the flights", outcomes(parts)),
-        ("events", "Events", events(parts)),
+        ("figures", "Figures of the flights", outcomes(comparison, parts)),
+        ("events", "Events", events(comparison, parts)),
         ("reading", "How to read this", _reading(comparison)),
         ("provenance", "Provenance", origins(comparison, provenance)),
     ]
@@ -117,7 +117,7 @@ def _shorts(comparison: Comparison) -> list[str]:
         words = [f"{word} {count}" for count, word in enumerate(words, start=1)]
     if isinstance(comparison.against, Facts):
         return words
-    return ["measured", *words]
+    return [comparison.first.word, *words]
 
 
 def _sides(comparison: Comparison) -> str:
@@ -165,21 +165,22 @@ def _reading(comparison: Comparison) -> str:
             "<p>A value <b>agrees</b> where it differs from the published one by no more than the tolerance. A value "
             "that was given to the simulation agrees by construction. Angles are compared on the circle.</p>\n"
         )
+    first, samples = comparison.first, comparison.first.of("samples")
     terms = {
-        "n": "measured samples that were compared",
+        "n": f"{samples} that were compared",
         "RMSE": "root of the mean squared error",
         "MAE": "mean of the error's magnitude",
         "bias": "mean error; positive where the simulation reads more",
         "standard deviation": "of the error about its mean; RMSE² = bias² + standard deviation²",
         "largest": "largest magnitude of an error",
         "correlation": "Pearson's, angles unwrapped in time first",
-        "RMSE / range": "RMSE over the largest less the smallest measured value",
-        "left out": "measured samples outside the simulated times, or inside a gap of theirs longer than "
+        "RMSE / range": f"RMSE over the largest less the smallest {first.of('value')}",
+        "left out": f"{samples} outside the simulated times, or inside a gap of theirs longer than "
         f"{comparison.max_gap:g} s",
     }
     rows = "".join(f"<dt>{term}</dt><dd>{meaning}</dd>" for term, meaning in terms.items())
     return (
-        "<p>Errors are simulated less measured. The measured samples set the times; simulated values are linear "
+        f"<p>Errors are simulated less {first.noun}. The {samples} set the times; simulated values are linear "
         "between their samples, never beyond them or across a gap. Angles are differenced the short way round. A dash "
         f"is no value.</p>\n<dl>{rows}</dl>\n"
     )

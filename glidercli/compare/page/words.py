@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from glidercli.compare.facts import Facts
+from glidercli.compare.first import First
 from glidercli.compare.page.html import escaped, number
 from glidercli.utc import to_second
 
@@ -41,8 +42,8 @@ def overview(comparison: Comparison) -> str:
         )
     return (
         f"The {simulation} {ours}{more} {'was' if len(runs) == 1 else 'were'} held against the log "
-        f"<b>{escaped(comparison.measured.name)}</b>. Errors are simulated less measured, at the times of the measured "
-        "samples."
+        f"<b>{escaped(comparison.measured.name)}</b>. Errors are simulated less {comparison.first.noun}, at the "
+        f"times of the {comparison.first.of('samples')}."
     )
 
 
@@ -50,8 +51,11 @@ def run_words(comparison: Comparison, run: Run, part: Mapping[str, Any]) -> list
     """Sentences on one simulation. part : its document."""
     if isinstance(comparison.against, Facts):
         return _verdicts(part["facts"])
+    first = comparison.first
     return [
-        sentence for sentence in (_clock(part), _times(run), *_channels(part), _events(part), _track(part)) if sentence
+        sentence
+        for sentence in (_clock(part), _times(run), *_channels(part, first), _events(part, first), _track(part, first))
+        if sentence
     ]
 
 
@@ -86,7 +90,7 @@ def _times(run: Run) -> str:
     return f"What is compared lies between {to_second(first)} and {to_second(last)}, {duration((last - first) * 1e-9)}."
 
 
-def _channels(part: Mapping[str, Any]) -> list[str]:
+def _channels(part: Mapping[str, Any], first: First) -> list[str]:
     channels = part["channels"]
     held = {name: one for name, one in channels.items() if one["n"]}
     if not held:
@@ -114,10 +118,11 @@ def _channels(part: Mapping[str, Any]) -> list[str]:
         count = min(_NAMED, len(ranked) // 2)
         close = _listed([_share(name, held[name]) for name in ranked[:count]])
         far = _listed([_share(name, held[name]) for name in ranked[: -count - 1 : -1]])
-        said.append(f"Closest, by RMSE against the range of the measured values: {close}. Farthest: {far}.")
+        said.append(f"Closest, by RMSE against the range of the {first.of('values')}: {close}. Farthest: {far}.")
     still = [_named(name) for name in held if held[name]["nrmse"] is None]
     if still:
-        said.append(f"Measured as constant, so without a range to hold an error against: {_listed(still)}.")
+        constant = "Measured as constant" if first.word == "measured" else "Constant in the first log"
+        said.append(f"{constant}, so without a range to hold an error against: {_listed(still)}.")
     return said
 
 
@@ -132,26 +137,26 @@ def _named(name: str) -> str:
     return escaped(name.replace("_", " "))
 
 
-def _events(part: Mapping[str, Any]) -> str:
+def _events(part: Mapping[str, Any], first: First) -> str:
     events = part.get("events") or []
     if not events:
         return ""
     both = sum(one["measured"] is not None and one["simulated"] is not None for one in events)
     alone = sum(one["simulated"] is None for one in events)
     return (
-        f"{both} of {len(events)} events are in both logs; {alone} were met in the measured one alone, "
+        f"{both} of {len(events)} events are in both logs; {alone} were met in the {first.word} one alone, "
         f"{len(events) - both - alone} in the simulated one alone."
     )
 
 
-def _track(part: Mapping[str, Any]) -> str:
+def _track(part: Mapping[str, Any], first: First) -> str:
     track = part.get("track")
     whole = (track or {}).get("absolute") or {}
     if whole.get("rmse") is None:
         return ""
     return (
-        f"The simulated track lies {number(whole['rmse'])} m (RMSE) from the measured one, {number(whole['max'])} m at "
-        "most."
+        f"The simulated track lies {number(whole['rmse'])} m (RMSE) from the {first.word} one, "
+        f"{number(whole['max'])} m at most."
     )
 
 

@@ -47,7 +47,7 @@
     one.errors.forEach((line) => {
       const less = curve(line, unit, { yaxis: "y2" });
       less.line.width = 1.3;
-      less.name += " less measured";
+      less.name += ` less ${data.logs[0].short}`;
       traces.push(less);
     });
     one.events.forEach((marks) => {
