@@ -51,7 +51,7 @@ def _text(d: dict[str, Any], width: int) -> list[str]:
     records, kept = (sum(f[key] for f in d["files"]) for key in ("records", "kept"))
     who = d["platform"] or "vehicle not told"
     lines = [
-        f"{d['kind']}: {who}",
+        f"{d['kind']}: {who}" + (", as its instruments would record it" if d["instruments"] else ""),
         f"{_moment(d['start'])} to {_moment(d['end'])} UTC, {_span(d['duration_s'])}",
         f"{_count(len(d['files']), 'file')}, {_count(records, 'record')}: {kept:,} kept, {records - kept:,} dropped",
     ]

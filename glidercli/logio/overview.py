@@ -112,6 +112,7 @@ class Overview:
         return {
             "kind": self.log.kind,
             "platform": self.log.metadata.get("platform") or self.log.metadata.get("vehicle"),
+            "instruments": self.log.metadata.get("instruments"),
             "start": iso(self.log.start_ns),
             "end": iso(self.log.end_ns),
             "duration_s": (self.log.end_ns - self.log.start_ns) * 1e-9,

@@ -250,3 +250,15 @@ def test_a_place_has_three_numbers(glider: Run, plan: Path, tmp_path: Path, give
     (tmp_path / "odd.toml").write_text(f"[instruments.pressure]\nposition_m = {given}\n")
     told = "allowed three numbers: forward, starboard, down"
     one_line_error(glider("simulate", plan, "--instruments", "odd.toml"), "instruments.pressure.position_m", told)
+
+
+def test_info_says_whose_readings_they_are(
+    glider: Run, glider_json: Callable[..., Any], plan: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "aboard.toml").write_text('[instruments.compass]\nmodel = "tcm3"\n[instruments.pressure]\n')
+    glider("simulate", plan, "--instruments", "aboard.toml", "-o", "seen.nc")
+    glider("simulate", plan, "--instruments", "none", "-o", "flown.nc")
+    told = ", as its instruments would record it"
+    first = [glider("info", name).stdout.splitlines()[0] for name in ("seen.nc", "flown.nc")]
+    assert first == [f"SIMULATED: seawing{told}", "SIMULATED: seawing"]
+    assert glider_json("info", "seen.nc")["instruments"].startswith("compass: model = tcm3")

@@ -44,6 +44,8 @@ OSWALD = 0.9
 """Of the induced drag of attached flow, L^2 / (q pi b^2 e)."""
 INCIDENCE = math.radians(0.5)
 """By which a wing may stand off the hull's axis: interval of K_L0 and K_M0 around zero."""
+SLENDER = 4.0
+"""Length over diameter from which the hull's formulas are used without a warning."""
 DIHEDRAL = math.radians(2.0)
 """Of wings whose file says flat: what their roll from sideslip may come to is that of so much, to either side."""
 
@@ -253,6 +255,12 @@ def _warnings(geometry: Geometry, reynolds: dict[str, float]) -> list[str]:
         for part, value in reynolds.items()
         if not REYNOLDS[0] <= value <= REYNOLDS[1]
     ]
+    hull = geometry.hull
+    if hull.length_overall < SLENDER * hull.thickest:
+        found.append(
+            f"the hull is {hull.length_overall / hull.thickest:.2g} times as long as thick; its formulas are for "
+            f"slender hulls, {SLENDER:g} times and more"
+        )
     planes = [item.plane for item in geometry.surface.values()]
     if not planes:
         found.append("no surfaces in the geometry: these are the coefficients of a bare hull, on which nothing glides")

@@ -224,6 +224,8 @@ def test_numbers_that_no_estimate_can_be_made_for(given):
 
 def test_what_the_formulas_are_not_for_is_said():
     assert any("Reynolds number" in line for line in estimate(shape(), viscosity=0.1).warnings)
+    ball = dataclasses.replace(shape(), hull=HullShape(length=0.5, diameter=0.4), surface={})
+    assert any("1.2 times as long as thick" in line for line in estimate(ball).warnings)
     two = dataclasses.replace(
         shape(),
         surface={"wing": shape().surface["wing"], "stern": Surface(
