@@ -29,6 +29,8 @@ FIGURES: tuple[tuple[str, str, str, str | None, str, float], ...] = (
     ("turns to starboard on climbs", "turns", "heading_change", None, "climb", 1.0 / 360.0),
 )
 """Name, unit; quantity, channel and phase as in facts.py; and the factor to the unit."""
+ROUNDING = 1e-9
+"""Of a figure, in its unit: less than any instrument tells."""
 
 
 class Outcome(NamedTuple):
@@ -46,8 +48,8 @@ class Outcome(NamedTuple):
 
     @property
     def relative(self) -> float | None:
-        """The difference over the measured figure's size; None where that is zero."""
-        return self.difference / abs(self.measured) if self.measured else None
+        """The difference over the measured figure's size; None where that is zero but for rounding."""
+        return self.difference / abs(self.measured) if abs(self.measured) > ROUNDING else None
 
 
 def outcomes(measured: Log, simulated: Log, track: TrackErrors | None) -> tuple[Outcome, ...]:
