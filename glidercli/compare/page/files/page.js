@@ -279,6 +279,9 @@
     });
     requestAnimationFrame(drawAll); // once the page is as wide as its window again
   });
+  matchMedia("print").addEventListener("change", (media) => { // where that comes after the frame
+    if (!media.matches && !printing) requestAnimationFrame(drawAll);
+  });
 
   drawAll();
   const scratch = document.getElementById("js-plotly-tester"); // where Plotly measures texts
