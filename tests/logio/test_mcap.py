@@ -166,6 +166,19 @@ def test_a_changed_byte_never_changes_a_value(part: float, flip: int, tmp_path_f
     assert_same(back, log)  # bytes that nothing depends on
 
 
+@pytest.mark.parametrize("summary", [1, 2**56, 2**64 - 1])
+def test_a_footer_that_points_out_of_the_file_is_damage(tmp_path: Path, summary: int) -> None:
+    """One changed byte of the footer can name a place that no file has: opcode, length 20, summary_start, ..."""
+    path = tmp_path / "a.mcap"
+    write_mcap(full_log(50), path)
+    data = bytearray(path.read_bytes())
+    at = len(data) - 8 - 29 + 9  # magic; footer of 1 + 8 + 20 bytes; the number stands behind opcode and length
+    data[at : at + 8] = summary.to_bytes(8, "little")
+    path.write_bytes(data)
+    with pytest.raises(InputError, match="is truncated or damaged"):
+        read_mcap_log(path)
+
+
 def test_most_of_a_cut_file_is_recovered(tmp_path: Path) -> None:
     """What the error message advises: the first chunks come back exactly."""
     log = full_log(5000)

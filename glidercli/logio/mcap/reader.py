@@ -159,6 +159,8 @@ def _check_sums(stream: IO[bytes]) -> None:
         raise _Damaged("no footer")
     if summary == 0:
         return
+    if not _DATA_END_SIZE < summary <= end - _FOOTER_SIZE:
+        raise _Damaged("a summary outside of the file")
     opcode, _, data_crc = struct.unpack("<BQI", _bytes_of(stream, summary - _DATA_END_SIZE, summary))
     if opcode != _DATA_END or data_crc not in (0, _sum_of(stream, 0, summary - _DATA_END_SIZE)):
         raise _Damaged("wrong checksum of the data section")
