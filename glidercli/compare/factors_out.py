@@ -7,8 +7,8 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from glidercli.aligned import table
 from glidercli.compare.factors import ANGLES, MEASURES
-from glidercli.compare.text import table
 from glidercli.files import atomic, metadata_path
 
 if TYPE_CHECKING:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from glidercli.aligned import table
 from glidercli.compare.errors import Errors
 from glidercli.compare.events import EventPair
 from glidercli.compare.facts import FLIGHT, Facts
@@ -17,7 +17,7 @@ from glidercli.utc import to_second
 if TYPE_CHECKING:
     from glidercli.compare.comparison import Comparison, Run
 
-__all__ = ["table", "text"]
+__all__ = ["text"]
 
 _ERRORS = ("channel", "unit", "n", "rmse", "mae", "bias", "std", "max", "correlation", "nrmse", "skipped")
 _TOLD = ("deepest", "apogee", "bottom", "surfacing")
@@ -160,15 +160,3 @@ def _facts(comparison: Comparison, facts: Facts, run: Run) -> list[str]:
 
 def _number(value: float | None) -> str:
     return "-" if value is None else f"{value:z.4g}"
-
-
-def table(head: Sequence[str], rows: Sequence[Sequence[str]], texts: int, left: Sequence[int] = ()) -> list[str]:
-    """Columns as wide as their longest cell, the first ``texts`` and those in ``left`` to the left, others right."""
-    widths = [max(len(row[i]) for row in (head, *rows)) for i in range(len(head))]
-    return [
-        "  ".join(
-            cell.ljust(width) if i < texts or i in left else cell.rjust(width)
-            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        for row in (head, *rows)
-    ]

@@ -91,8 +91,6 @@ class Estimate:
             if not tail <= at <= nose:
                 where = "ahead of the nose" if at > nose else "behind the hull's tail"
                 found.append(f"surface {name} stands {where}, on something that is not in the geometry")
-            elif inner > surface.root_offset + 1e-9 or surface.root_offset == 0.0:
-                continue
             elif surface.root_offset > float(hull.radius(np.array([at]))[0]) + 0.005:
                 found.append(f"surface {name} begins {surface.root_offset:g} m from the axis, off the hull")
         left = self.total()

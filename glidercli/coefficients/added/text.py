@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
+from glidercli.aligned import table
 from glidercli.coefficients.added.added_mass import MODEL, Estimate
 from glidercli.coefficients.added.rest import Rest
 from glidercli.coefficients.added.strips import Terms
@@ -32,7 +31,7 @@ def text(estimate: Estimate, beside: tuple[str, Terms] | None, left: Rest | None
             other = getattr(beside[1], row.name)
             cells += [f"{other:z.3f}", f"{corrected / other:z.3f}" if other else ""]
         rows.append(cells)
-    lines += table(rows)
+    lines += table(rows[0], rows[1:], 2)
     if g.surface:
         parts = list(estimate.corrected)
         rows = [["corrected, by part", "", *parts]]
@@ -40,22 +39,10 @@ def text(estimate: Estimate, beside: tuple[str, Terms] | None, left: Rest | None
             [row.symbol, row.unit, *(f"{getattr(estimate.corrected[part], row.name):z.3f}" for part in parts)]
             for row in MODEL
         ]
-        lines += ["", *table(rows)]
+        lines += ["", *table(rows[0], rows[1:], 2)]
     if beside is not None and left is not None:
         lines += ["", *_left(beside[0], left)]
     return "\n".join(lines)
-
-
-def table(rows: Sequence[Sequence[str]]) -> list[str]:
-    """Rows as lines: words to the left, numbers to the right."""
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    return [
-        "  ".join(
-            cell.ljust(width) if i < 2 else cell.rjust(width)
-            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        for row in rows
-    ]
 
 
 def _left(name: str, left: Rest) -> list[str]:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from pydantic import ConfigDict, Field, model_validator
 from pydantic.dataclasses import dataclass
 
+from glidercli.coefficients.shape.planform import middle, overlap, root
 from glidercli.errors import InputError
 from glidercli.files import read_toml
 from glidercli.vehicle.checking import checked
@@ -194,8 +195,6 @@ class Geometry:
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        from glidercli.coefficients.shape.planform import overlap, root
-
         faults = [
             f"surface.{name}: the name stands for another part; {', '.join(WHOLE)} are taken"
             for name in self.surface
@@ -207,7 +206,7 @@ class Geometry:
             faults.append(f"{told}, allowed: in the hull, {tail:g}..{nose:g} m")
         faults += [
             f"surface.{name} does not stick out of the hull: its tip is {item.semi_span:g} m from the axis, the hull's "
-            f"radius there {float(self.hull.radius(np.array([_middle(item, item.semi_span)]))[0]):g} m"
+            f"radius there {float(self.hull.radius(middle(item, np.array([item.semi_span])))[0]):g} m"
             for name, item in self.surface.items()
             if root(item, self.hull) is None
         ]
@@ -221,12 +220,6 @@ class Geometry:
         if faults:
             raise ValueError("; ".join(faults))
         return self
-
-
-def _middle(surface: Surface, s: float) -> float:
-    """Middle of the chord at a distance from the axis, m."""
-    at = np.array([s])
-    return float((surface.leading_edge(at) - surface.chord(at) / 2.0)[0])
 
 
 def shipped_geometries() -> dict[str, Path]:
