@@ -8,11 +8,11 @@ from typing import Any, NamedTuple
 from glidercli.coefficients.forces.fitting import SYMBOLS
 from glidercli.errors import InputError
 from glidercli.files import read_toml
+from glidercli.shipped import file_of
 from glidercli.units import DEGREE
 from glidercli.vehicle.checking import check
 from glidercli.vehicle.load import shipped_vehicles
 from glidercli.vehicle.vehicle import AddedMass, Hull, Vehicle
-from glidercli.vehicle.writing import vehicle_file
 
 __all__ = ["Base", "read_base"]
 
@@ -36,11 +36,7 @@ class Base(NamedTuple):
 
 def read_base(name_or_path: str) -> Base:
     """The coefficients of a shipped vehicle or a file; InputError for any number that no vehicle can have."""
-    path = vehicle_file(name_or_path)
-    if path.suffix == "" and not path.exists():
-        raise InputError(
-            name_or_path, f"is no vehicle; shipped are {', '.join(shipped_vehicles())}, or give a .toml file"
-        )
+    path = file_of(name_or_path, shipped_vehicles(), "vehicle")
     document = read_toml(path, "a vehicle")
     missing, faults = check(Vehicle, document, path)
     if faults:

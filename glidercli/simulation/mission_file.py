@@ -42,14 +42,7 @@ def load_mission(name_or_path: str | Path) -> tuple[Mission, Path]:
 
     Raises InputError with every fault of the file at once.
     """
-    text = str(name_or_path)
-    missions = shipped.missions()
-    if text in missions:
-        path = missions[text]
-    elif Path(text).suffix == "" and not Path(text).exists():
-        raise InputError(text, f"is no mission; shipped are {', '.join(missions)}, or give a .toml file")
-    else:
-        path = Path(text)
+    path = shipped.file_of(name_or_path, shipped.missions(), "mission")
     given = read_toml(path, "a mission")
     try:
         return TypeAdapter(Mission).validate_python(given), path

@@ -5,8 +5,8 @@ from __future__ import annotations
 import functools
 from pathlib import Path
 
-from glidercli.errors import InputError
 from glidercli.files import read_toml
+from glidercli.shipped import file_of
 from glidercli.vehicle.checking import checked
 from glidercli.vehicle.vehicle import Vehicle
 
@@ -30,13 +30,9 @@ def load_vehicle(name_or_path: str | Path) -> Vehicle:
         The file cannot be read or is no TOML; or, all together, every unknown key, missing value, wrong unit and value
         outside its physical range, as ``FILE: key = value unit, allowed range; ...``.
     """
-    shipped = shipped_vehicles()
-    text = str(name_or_path)
-    if text in shipped:
-        return _shipped(shipped[text])
-    if Path(text).suffix == "" and not Path(text).exists():
-        raise InputError(text, f"is no vehicle; shipped are {', '.join(shipped)}, or give a .toml file")
-    return _read(Path(text))
+    known = shipped_vehicles()
+    path = file_of(name_or_path, known, "vehicle")
+    return _shipped(path) if str(name_or_path) in known else _read(path)
 
 
 @functools.cache

@@ -14,7 +14,7 @@ from glidercli.vehicle.load import shipped_vehicles
 from glidercli.vehicle.quantity import Quantity
 from glidercli.vehicle.vehicle import Vehicle
 
-__all__ = ["Number", "revised", "vehicle_file"]
+__all__ = ["Number", "revised"]
 
 _DIGITS = 6
 """significant, of a number that is written: below any standard error that coefficients have."""
@@ -28,11 +28,6 @@ class Number:
     source: str
     symbol: str = ""
     note: str = ""
-
-
-def vehicle_file(name_or_path: str | Path) -> Path:
-    """The file of a shipped vehicle, or the path itself; the file need not be a whole vehicle."""
-    return shipped_vehicles().get(str(name_or_path), Path(name_or_path))
 
 
 def revised(

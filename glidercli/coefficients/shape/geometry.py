@@ -15,8 +15,8 @@ from pydantic import ConfigDict, Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from glidercli.coefficients.shape.planform import middle, overlap, root
-from glidercli.errors import InputError
 from glidercli.files import read_toml
+from glidercli.shipped import file_of
 from glidercli.vehicle.checking import checked
 from glidercli.vehicle.quantity import Quantity
 
@@ -232,11 +232,5 @@ def load_geometry(name_or_path: str | Path) -> tuple[Geometry, Path]:
 
     Raises InputError with every fault of the file at once.
     """
-    shipped, text = shipped_geometries(), str(name_or_path)
-    if text in shipped:
-        path = shipped[text]
-    elif Path(text).suffix == "" and not Path(text).exists():
-        raise InputError(text, f"is no geometry; shipped are {', '.join(shipped)}, or give a .toml file")
-    else:
-        path = Path(text)
+    path = file_of(name_or_path, shipped_geometries(), "geometry")
     return checked(Geometry, read_toml(path, "a geometry"), path), path
