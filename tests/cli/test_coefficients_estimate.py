@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import inspect
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -114,10 +115,10 @@ def test_the_vehicles_angle_counts(glider: Run, glider_json: Callable[..., Any],
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--speed", "0"], ["--speed", "0 m/s is not allowed"]),
-        (["--speed", "nan"], ["--speed", "nan"]),
-        (["--speed", "-1"], ["--speed", "-1"]),
-        (["--viscosity", "inf"], ["--viscosity", "inf"]),
+        (["--speed", "0"], ["speed: 0 m/s is not allowed"]),
+        (["--speed", "nan"], ["speed: nan"]),
+        (["--speed", "-1"], ["speed: -1"]),
+        (["--viscosity", "inf"], ["viscosity: inf"]),
         (["--angle", "45"], ["--angle", "0.1 to 30"]),
         (["--vehicle", "none"], ["none", "shipped are"]),
         (["--vehicle", "none.toml"], ["none.toml", "no such file"]),
@@ -189,3 +190,14 @@ def test_a_vehicle_from_nothing_says_what_it_lacks(glider: Run) -> None:
     done = glider(*ESTIMATE, "seawing-estimated", "-o", "new.toml")
     assert done.returncode == 0
     assert "new.toml is no whole vehicle yet; it lacks description, reference, hull, mass" in done.stderr
+
+
+def test_defaults_are_those_of_the_library() -> None:
+    """Written out in the command, so that --help shows them and costs no import."""
+    from glidercli.cli.coefficients import cases, estimate
+    from glidercli.coefficients.flows.case_table import SPEED
+    from glidercli.coefficients.flows.reynolds import PAPER_VISCOSITY
+
+    defaults = [inspect.signature(command).parameters for command in (cases.cases, estimate.estimate)]
+    assert [one["speed"].default for one in defaults] == [SPEED, SPEED]
+    assert defaults[1]["viscosity"].default == PAPER_VISCOSITY

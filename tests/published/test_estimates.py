@@ -10,6 +10,7 @@ import dataclasses
 import math
 
 import pytest
+from conftest import ROOT
 from suboff import DENSITY, LENGTH, MEASURED, RESISTANCE, REYNOLDS, SPEED, WETTED, suboff
 
 from glidercli import trim
@@ -24,18 +25,33 @@ from glidercli.vehicle import Vehicle, load_vehicle
 
 HALF = DENSITY / 2.0
 
-RATIOS = {
-    "bare hull": {"Y_v": 2.43, "N_v": 0.74, "N_r": 1.38},
-    "hull and sail": {"Y_v": 1.28, "N_v": 0.82, "N_r": 1.26},
-    "hull and planes": {"Y_v": 1.88, "N_v": 0.64, "N_r": 1.01},
-}
-"""Estimate over measured, as docs/estimates.md tells it, to the digits printed there."""
-
-SEAWING = {
-    "K_D0": 0.70, "K_D": 1.29, "K_beta": 0.64, "K_alpha": 1.12, "K_p": 7.34, "K_M": 1.52, "K_q": 0.58, "K_MY": 1.76,
-    "K_r": 0.71,
+WORST = {"drag": 1.4, "force": 2.4, "moment": 3.2, "damping": 6.2}
+"""The error bar of docs/estimates.md and of the command's help: how many times too much or too little, at worst."""
+GROUP = {
+    "K_D0": "drag", "K_beta": "force", "K_alpha": "force", "K_M": "moment", "K_MY": "moment", "K_q": "damping",
+    "K_r": "damping", "Y_v": "force", "N_v": "moment", "N_r": "damping",
 }  # fmt: skip
-"""Estimate over Table 3, likewise."""
+NONE = ("K_L0", "K_M0", "K_MR")
+"""What a shape that is symmetric does not have."""
+
+
+def page_row(first: str) -> list[str]:
+    """The cells of a row of a table of the page, behind its first."""
+    text = (ROOT / "docs" / "estimates.md").read_text(encoding="utf-8")
+    rows = [line.strip("|").split("|") for line in text.splitlines() if line.startswith((f"| {first} ", f"| {first}/"))]
+    assert len(rows) == 1, first
+    return [cell.strip() for cell in rows[0][1:]]
+
+
+def as_told(value: float, cell: str) -> bool:
+    """Whether a number is what a page tells, to the digits that it has there."""
+    digits = len(cell.partition(".")[2])
+    return abs(value - float(cell)) <= 0.5 * 10.0**-digits * (1.0 + 1e-9)
+
+
+def within(ratio: float, group: str) -> bool:
+    """Whether a ratio is inside of the stated error bar, half a digit allowed for."""
+    return max(ratio, 1.0 / ratio) <= WORST[group] + 0.05
 
 
 def at_test(configuration: str) -> Estimated:
@@ -68,27 +84,36 @@ def test_suboffs_resistance() -> None:
 
 
 @pytest.mark.parametrize("configuration", MEASURED)
-@pytest.mark.parametrize("name", ["Y_v", "N_v", "N_r"])
-def test_suboffs_slopes(configuration: str, name: str) -> None:
-    """The sign, the ratio that the docs tell (half a digit of it), and inside the interval."""
-    found, measured = slopes(configuration)[name], MEASURED[configuration][name]
-    assert found.value / measured == pytest.approx(RATIOS[configuration][name], abs=0.006)
-    assert found.holds(measured)
+def test_suboffs_slopes(configuration: str) -> None:
+    """The sign, within the stated error bar, inside the interval; and the page tells what comes out."""
+    cells = page_row(configuration)
+    found, measured = slopes(configuration), MEASURED[configuration]
+    for number, name in enumerate(("Y_v", "N_v", "N_r")):
+        ratio = found[name].value / measured[name]
+        assert within(ratio, GROUP[name]), (name, ratio)
+        assert found[name].holds(measured[name])
+        told = cells[3 * number : 3 * number + 3]
+        assert all(map(as_told, (1e3 * measured[name], 1e3 * found[name].value, ratio), told)), (name, told)
 
 
 def test_the_seawing() -> None:
-    """The ratios to Table 3 that the docs tell, half a digit; zero where Table 3 has small numbers, and where it has not:
-    K_MR."""
+    """Table 3 within the stated error bar, but for roll, which is told to be off by seven or missing; the page tells what
+    comes out, and which intervals hold Table 3."""
     geometry, _ = load_geometry("seawing-estimated")
     found = estimate(geometry, added=load_vehicle("seawing").added_mass)
     printed = dataclasses.asdict(load_vehicle("seawing").hydrodynamics)
     for symbol, one in found.coefficients.items():
-        if symbol in SEAWING:
-            assert one.total.value / printed[one.row.name] == pytest.approx(SEAWING[symbol], abs=0.006), symbol
-        else:
-            assert one.total.value == 0.0
+        cells, value, own = page_row(f"{symbol} kg"), one.total.value, printed[one.row.name]
+        assert as_told(own, cells[0])
+        assert as_told(value, cells[1])
+        if symbol in NONE:
+            assert value == 0.0
+            continue
+        assert as_told(value / own, cells[3])
+        if symbol in GROUP:
+            assert within(value / own, GROUP[symbol]), symbol
     inside = [s for s, one in found.coefficients.items() if one.total.holds(printed[one.row.name])]
-    assert inside == ["K_D", "K_L0", "K_alpha", "K_M0"]
+    assert inside == ["K_D", "K_L0", "K_alpha", "K_M0"]  # "of the Seawing's twelve numbers they hold four"
 
 
 def test_the_assumed_seawing_has_the_added_mass_that_it_was_made_for() -> None:
@@ -100,8 +125,8 @@ def test_the_assumed_seawing_has_the_added_mass_that_it_was_made_for() -> None:
 
 
 def test_round_trip(tmp_path, seawing: Vehicle) -> None:  # type: ignore[no-untyped-def]
-    """The Seawing with estimates in place of Table 3 glides straight, stably, 25 % faster and 2.6 deg steeper; both are
-    told in the docs. With the mass turned it does not spiral as the paper's does: the turn is small, the other way."""
+    """The Seawing with estimates in place of Table 3 glides straight and stably, as the page tells. With the mass turned it
+    does not spiral as the paper's does: the turn is small, the other way."""
     base = read_base("seawing")
     geometry, _ = load_geometry("seawing-estimated")
     path = tmp_path / "est.toml"
@@ -111,7 +136,8 @@ def test_round_trip(tmp_path, seawing: Vehicle) -> None:  # type: ignore[no-unty
     controls = {"net_buoyancy": 0.3, "mass_position": 0.4216}
     theirs, own = (trim(vehicle, mass_rotation=0.0, **controls) for vehicle in (seawing, made))
     assert own.stable
-    assert own.speed / theirs.speed == pytest.approx(1.245, abs=0.006)
-    steeper = own.document()["glide_angle_deg"] - theirs.document()["glide_angle_deg"]
-    assert steeper == pytest.approx(2.64, abs=0.06)
+    for row, one in (("Table 3", theirs), ("estimated", own)):
+        document = one.document()
+        told = zip(("speed_m_s", "glide_angle_deg", "angle_of_attack_deg"), page_row(row), strict=False)
+        assert all(as_told(document[name], cell) for name, cell in told), row
     assert abs(trim(made, mass_rotation=math.pi / 4, **controls).document()["yaw_rate_deg_s"]) < 0.05

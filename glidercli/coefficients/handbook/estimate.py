@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 
 from glidercli.coefficients.added.added_mass import added_mass, hull_volume
 from glidercli.coefficients.added.spheroid import spheroid
+from glidercli.coefficients.flows.case_table import SPEED
 from glidercli.coefficients.flows.reynolds import PAPER_VISCOSITY
 from glidercli.coefficients.forces.munk import munk_slopes
 from glidercli.coefficients.handbook.body import crosswise
@@ -33,8 +34,6 @@ from glidercli.vehicle.vehicle import AddedMass
 
 __all__ = ["COEFFICIENTS", "SPEED", "Coefficient", "Estimated", "Row", "estimate"]
 
-SPEED = 0.257
-"""m/s: of the paper's CFD cases, section 3.2."""
 FITTED = math.radians(12.0)
 """rad: range of the CFD cases, Table 2."""
 
