@@ -79,10 +79,10 @@ def test_energy_of_a_bare_wing():
     sweep = np.arctan2(x[0] - x[-1], s[-1] - s[0])
     a = np.where(out, 1025.0 * np.pi / 4.0 * chord**2 * np.cos(sweep), 0.0) * 0.6 / 400_000
     turn = np.where(out, 1025.0 * np.pi / 128.0 * chord**4, 0.0) * 0.6 / 400_000
-    assert found.heave == pytest.approx(2.0 * a.sum(), rel=2e-3)  # the root is found to 1/512 of the span
-    assert found.roll == pytest.approx(2.0 * (a * s * s).sum(), rel=2e-3)
-    assert found.pitch_from_heave == pytest.approx(-2.0 * (a * x).sum(), rel=2e-3)
-    assert found.pitch == pytest.approx(2.0 * (a * x * x + turn).sum(), rel=2e-3)
+    assert found.heave == pytest.approx(2.0 * a.sum(), rel=2e-5)  # of 400,000 strips
+    assert found.roll == pytest.approx(2.0 * (a * s * s).sum(), rel=2e-5)
+    assert found.pitch_from_heave == pytest.approx(-2.0 * (a * x).sum(), rel=2e-5)
+    assert found.pitch == pytest.approx(2.0 * (a * x * x + turn).sum(), rel=2e-5)
 
 
 def lattice(length, width, n=24):
