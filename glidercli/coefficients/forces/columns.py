@@ -11,7 +11,7 @@ from glidercli.ocean.source import listed
 from glidercli.ocean.table import Table
 from glidercli.units import CENTIMETRE, DEGREE, KNOT, MILLIMETRE
 
-__all__ = ["BODY_FORCES", "BODY_MOMENTS", "FLOW", "Column", "columns_of", "spelled"]
+__all__ = ["BODY_FORCES", "BODY_MOMENTS", "FLOW", "Column", "column_of", "columns_of", "spelled"]
 
 _ANGLE = {"deg": DEGREE, "rad": 1.0}
 _SPEED = {"m_s": 1.0, "cm_s": CENTIMETRE, "mm_s": MILLIMETRE, "knot": KNOT}
@@ -64,6 +64,11 @@ class Column(NamedTuple):
 def spelled(quantity: str) -> str:
     """The name that a column of a quantity has in the first of its units."""
     return f"{quantity}_{next(iter(_UNITS[quantity]))}"
+
+
+def column_of(symbol: str) -> str:
+    """The quantity of the flow frame that a symbol of eq. (20) stands for."""
+    return next(name for name, its in FLOW.items() if its == symbol)
 
 
 def columns_of(table: Table) -> tuple[dict[str, Column], list[str]]:

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glidercli.coefficients.forces.columns import FLOW, spelled
-from glidercli.coefficients.forces.misfits import misfits
+from glidercli.coefficients.forces.columns import FLOW, column_of, spelled
+from glidercli.coefficients.forces.misfits import misfits, refuse_other_sizes, refuse_other_units
 from glidercli.coefficients.forces.regression import Regression, regress
 from glidercli.coefficients.forces.table import Forces
 from glidercli.errors import InputError
@@ -31,8 +31,6 @@ SYMBOLS = {
 
 ZERO_ANGLE = 0.05 * DEGREE
 """An angle within this of zero is zero: tables may be rounded."""
-_FEW, _OTHER_SIZE = 3, 100.0
-"""Cases of each kind, and the ratio of their largest pitch moments, from which on they are told in two units."""
 _DECIMALS = 4
 """of rad, m/s and 1/m, by which cases are told apart when they are counted."""
 
@@ -154,7 +152,7 @@ def fit_forces(
     fitted: list[Fitted] = []
     far_off: list[tuple[Equation, int]] = []
     lacking: dict[str, str] = {}
-    _refuse_other_sizes(f)
+    refuse_other_sizes(f)
     for equation in (_holding(equation, values) for equation in EQUATIONS):
         if not equation.unknowns:
             continue
@@ -169,11 +167,11 @@ def fit_forces(
             given = Z @ ([values[symbol] for symbol in equation.held] or [0.0])
             rows = np.flatnonzero(chosen)
             odd = misfits(X, y[chosen] - given)
-            _refuse_other_units(f, equation, rows, odd.other_unit)
+            refuse_other_units(f, equation.measured, rows, odd.other_unit)
             far_off += [(equation, int(rows[row])) for row in odd.far_off]
             found = regress(X, y[chosen] - given, Z, _covariance(fitted, equation.held))
             if found.distinct:
-                fitted.append(Fitted(equation, np.flatnonzero(chosen), y[chosen], y[chosen] - found.residual, found))
+                fitted.append(Fitted(equation, rows, y[chosen], y[chosen] - found.residual, found))
                 values.update(zip(equation.unknowns, found.values.tolist(), strict=True))
             else:
                 why = f"cases that tell {' from '.join(equation.unknowns)}"
@@ -183,31 +181,6 @@ def fit_forces(
         more = "" if partial else "; --partial fits the others"
         raise InputError(f.path, f"too little for {'; '.join(lacking.values())}{more}")
     return Fit(fitted, lacking, density, far_off)
-
-
-def _refuse_other_units(f: Forces, equation: Equation, rows: NDArray[np.int64], other: Mapping[int, str]) -> None:
-    """Rows of an equation that are told in another unit than its others."""
-    if other:
-        column = next(name for name, symbol in FLOW.items() if symbol == equation.measured)
-        lines = ", ".join(str(f.lines[rows[row]]) for row in list(other)[:8])
-        more = f" and {len(other) - 8} more" if len(other) > 8 else ""
-        told = " or ".join(dict.fromkeys(other.values()))
-        raise InputError(f.path, f"lines {lines}{more}: {spelled(column)}, {told}; one unit is allowed in a column")
-
-
-def _refuse_other_sizes(f: Forces) -> None:
-    """Pitch moments of straight and of turning cases that cannot be of one vehicle in one unit."""
-    T2 = np.abs(f.measured[:, list(FLOW.values()).index("T2")])
-    straight, turning = (T2[(f.kind == kind) & ~np.isnan(T2)] for kind in ("straight", "about-p2"))
-    if len(straight) < _FEW or len(turning) < _FEW or not min(straight.max(), turning.max()) > 0.0:
-        return
-    ratio = float(turning.max() / straight.max())
-    if not 1.0 / _OTHER_SIZE < ratio < _OTHER_SIZE:
-        raise InputError(
-            f.path,
-            f"{spelled('pitch_moment')}: the largest of the cases turning about p2 is {ratio:.3g} times that of the "
-            "straight ones, as if in another unit; one unit is allowed in a column",
-        )
 
 
 def _holding(equation: Equation, values: Mapping[str, float]) -> Equation:
@@ -238,8 +211,7 @@ def _too_few(f: Forces, equation: Equation, chosen: Rows) -> str:
     of_kind = int(equation.rows(f).sum())
     count = int(chosen.sum())
     if of_kind and not count:
-        column = next(name for name, symbol in FLOW.items() if symbol == equation.measured)
-        return f"{spelled(column)}, or the body's, in {of_kind} cases {equation.cases}"
+        return f"{spelled(column_of(equation.measured))}, or the body's, in {of_kind} cases {equation.cases}"
     if not count:
         least = " and ".join(f"{number} {what}" for what, number in equation.needed.items())
         return f"no case {equation.cases}; at least {len(equation.unknowns) + 1} with {least} are needed"

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Misfits", "misfits"]
+from glidercli.coefficients.forces.columns import FLOW, column_of, spelled
+from glidercli.coefficients.forces.table import Forces
+from glidercli.errors import InputError
+
+__all__ = ["Misfits", "misfits", "refuse_other_sizes", "refuse_other_units"]
 
 Array = NDArray[np.float64]
 
@@ -24,6 +29,10 @@ _GROSS = 0.5
 """Of the largest fitted value: a residual beyond it, and beyond ten times the median one, is no scatter."""
 _MOST = 0.4
 """Of the rows; with more of them odd, nobody can say which are right."""
+
+_FEW, _OTHER_SIZE = 3, 100.0
+"""Cases of each kind, and the ratio of their largest pitch moments, from which on they are told in two units."""
+_SHOWN = 8  # lines that an error names
 
 
 class Misfits(NamedTuple):
@@ -58,3 +67,30 @@ def misfits(X: Array, y: Array) -> Misfits:
             if abs(y[row] / fit[row] / factor - 1.0) < _NEAR:
                 other[row] = told
     return Misfits(other, [row for row in np.flatnonzero(odd).tolist() if row not in other])
+
+
+def refuse_other_units(f: Forces, measured: str, rows: NDArray[np.int64], other: Mapping[int, str]) -> None:
+    """InputError for rows of a table that are told in another unit than the others.
+
+    measured : symbol of eq. (20). rows : of the table, (n,). other : as of ``misfits``, by number among these rows.
+    """
+    if other:
+        lines = ", ".join(str(f.lines[rows[row]]) for row in list(other)[:_SHOWN])
+        more = f" and {len(other) - _SHOWN} more" if len(other) > _SHOWN else ""
+        told = f"{spelled(column_of(measured))}, {' or '.join(dict.fromkeys(other.values()))}"
+        raise InputError(f.path, f"lines {lines}{more}: {told}; one unit is allowed in a column")
+
+
+def refuse_other_sizes(f: Forces) -> None:
+    """InputError for pitch moments of straight and of turning cases that cannot be of one vehicle in one unit."""
+    T2 = np.abs(f.measured[:, list(FLOW.values()).index("T2")])
+    straight, turning = (T2[(f.kind == kind) & ~np.isnan(T2)] for kind in ("straight", "about-p2"))
+    if len(straight) < _FEW or len(turning) < _FEW or not min(straight.max(), turning.max()) > 0.0:
+        return
+    ratio = float(turning.max() / straight.max())
+    if not 1.0 / _OTHER_SIZE < ratio < _OTHER_SIZE:
+        raise InputError(
+            f.path,
+            f"{spelled('pitch_moment')}: the largest of the cases turning about p2 is {ratio:.3g} times that of the "
+            "straight ones, as if in another unit; one unit is allowed in a column",
+        )
