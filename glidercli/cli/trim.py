@@ -94,10 +94,11 @@ def trim(
     debug: Debug = False,
 ) -> None:
     """Steady flight: a straight glide or a spiral, from any three of the ten quantities that describe it."""
+    from glidercli.cli.answers import wanted
     from glidercli.cli.printing import json_text, say, warn
     from glidercli.cli.progress import progress
     from glidercli.errors import UsageError
-    from glidercli.files import check_not_inputs, check_outputs
+    from glidercli.files import check_not_inputs
     from glidercli.keeping import TABLES
     from glidercli.pictures import PICTURES
     from glidercli.provenance import provenance
@@ -127,15 +128,10 @@ def trim(
         raise UsageError(f"{alone[0]} is part of --polar; it needs that option")
     if polar and linearize:
         raise UsageError("--linearize is for trims and sweeps; it cannot take --polar")
-    outputs = output or []
-    stdout = Path("-") in outputs
-    if json and stdout:
-        raise UsageError("-o - and --json both want stdout; leave one out")
-    files = [path for path in outputs if path != Path("-")]
+    to = wanted(output, json, SUFFIXES, force)
     inputs = [Path(vehicle)] if Path(vehicle).suffix else []
-    check_outputs(files, SUFFIXES, force)
-    check_not_inputs(files, inputs)
-    pictures = [path for path in files if path.suffix.lower() in PICTURES]
+    check_not_inputs(to.files, inputs)
+    pictures = [path for path in to.files if path.suffix.lower() in PICTURES]
     if pictures and not polar and not 1 <= len(sweep or []) <= 2:
         raise UsageError(f"-o {pictures[0]}: a picture shows one --sweep, two, or --polar; else {' '.join(TABLES)}")
 
@@ -149,11 +145,11 @@ def trim(
         else:
             answer, warnings, text = _root(vehicle, pins, form, linearize)
         bar.stage("writing")
-        write(answer, *files, record=provenance(inputs=inputs, origin="computed"), force=force)
+        write(answer, *to.files, record=provenance(inputs=inputs, origin="computed"), force=force)
     warn(warnings, quiet)
-    for path in files:
+    for path in to.files:
         say(f"wrote {path}", quiet)
-    print(json_text(answer.document()) if json or stdout else text)
+    print(json_text(answer.document()) if to.json or to.stdout else text)
 
 
 def _root(vehicle: str, pins: dict[str, float], form: Equations, linearize: bool) -> _Told:
