@@ -12,18 +12,16 @@ from glidercli import shipped
 from glidercli.errors import InputError
 from glidercli.files import read_toml
 from glidercli.simulation.instruments.settings import Compass, Ctd, Gps, Instruments, Pressure
-from glidercli.simulation.mission import (
+from glidercli.simulation.mission import ActuatorChanges, Mission, Steering
+from glidercli.simulation.mission_legs import (
     KINDS,
-    ActuatorChanges,
     Climb,
     ControlsLeg,
     Dive,
     Drift,
     HoldHeading,
-    Mission,
     Repeat,
     Spiral,
-    Steering,
     Wait,
 )
 

@@ -12,17 +12,8 @@ from glidercli.model.parameters import Controls, Parameters
 from glidercli.simulation.actuators import Drives
 from glidercli.simulation.autopilot import GIVEN, HEADING, HELD_PITCH, IN_WATER, RADIUS, TURN_RATE, Order
 from glidercli.simulation.legs import Leg, read_controls
-from glidercli.simulation.mission import (
-    ControlsLeg,
-    Drift,
-    Mission,
-    Spiral,
-    Steering,
-    Targets,
-    Wait,
-    flat,
-    places,
-)
+from glidercli.simulation.mission import Mission, Steering
+from glidercli.simulation.mission_legs import ControlsLeg, Drift, Spiral, Targets, Wait, flat, places
 from glidercli.simulation.settling import Settled
 from glidercli.simulation.turning import turns_of
 from glidercli.vehicle.vehicle import Vehicle

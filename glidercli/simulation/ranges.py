@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 from pydantic import Field
 
-__all__ = ["number", "positive"]
+__all__ = ["Buoyancy", "Depth", "Heading", "Seconds", "number", "positive"]
+
+_LONGEST = 1e8  # s, three years: more than any battery lasts; times are kept to 1e-8 s up to there
 
 
 def number(least: float, most: float) -> Any:
@@ -17,3 +19,9 @@ def number(least: float, most: float) -> Any:
 def positive(most: float) -> Any:
     """A range that begins above zero."""
     return Field(gt=0.0, le=most, allow_inf_nan=False, strict=True)
+
+
+Depth = Annotated[float, number(0.0, 12000.0)]
+Seconds = Annotated[float, positive(_LONGEST)]
+Heading = Annotated[float, number(-360.0, 360.0)]
+Buoyancy = Annotated[float, number(-100.0, 100.0)]
